@@ -1,0 +1,1 @@
+//! AMCs from a reflectance under given lights.

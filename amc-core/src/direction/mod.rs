@@ -1,0 +1,50 @@
+//! The direction of the cloth on a garment: a unit tangent per vertex.
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+/// Where a panel's direction comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Source {
+    /// `cos a grad U + sin a grad V`: the paper's (section 6).
+    #[default]
+    Gradient,
+    /// `cos a dP/du + sin a dP/dv`: where the draped cloth is sheared, this is where the yarn really goes.
+    Yarn,
+    /// A procedural field, whatever the UVs say; the angle turns it about the normal.
+    Field(Field),
+}
+
+/// Directions made without UVs, in object space. The paper's section 6: "or just procedurally".
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Field {
+    /// Circles around an axis: `direction x (p - origin)`.
+    Around {
+        /// A point of the axis, metres.
+        origin: Vec3,
+        /// The axis.
+        direction: Vec3,
+    },
+    /// Along a fixed direction, projected into the tangent plane.
+    Along {
+        /// The direction.
+        direction: Vec3,
+    },
+    /// Away from a point, projected into the tangent plane.
+    Radial {
+        /// The point, metres.
+        origin: Vec3,
+    },
+}
+
+/// A panel's direction.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Direction {
+    /// Where it comes from.
+    pub source: Source,
+    /// Radians in the flat pattern, counter-clockwise from +u as drawn with v up: 0 is the paper's grad U, a quarter
+    /// turn swaps warp and weft.
+    pub angle: f32,
+}

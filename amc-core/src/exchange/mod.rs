@@ -1,0 +1,1 @@
+//! AMCs from and to other files: slice atlas, slice folder, ordinary MatCap.

@@ -1,0 +1,1 @@
+//! Ambient occlusion per vertex (paper, section 6.1).

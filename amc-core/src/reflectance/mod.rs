@@ -1,0 +1,1 @@
+//! What a cloth reflects: formulas and data an AMC is baked from.

@@ -1,0 +1,143 @@
+//! Drawing a garment in its fabrics: one description, two renderers of the same picture.
+//!
+//! A [`Drawing`] is what is drawn (vertices with directions, panels with fabrics), a [`View`] from where, a
+//! [`Shading`] how. `cpu` is the reference in plain Rust; `gpu` (feature of that name) is WGSL through wgpu.
+//! [`shade`] holds the shading functions, twins of those in `shaders/`.
+
+pub mod cpu;
+#[cfg(feature = "gpu")]
+pub mod gpu;
+pub mod shade;
+mod view;
+
+pub use view::{Projection, View};
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::{Vec2, Vec3};
+
+use crate::amc::Amc;
+use crate::image::Picture;
+
+/// One vertex as both renderers take it.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Vertex {
+    /// Object space, metres.
+    pub position: Vec3,
+    /// Unit, object space.
+    pub normal: Vec3,
+    /// Unit, object space, perpendicular to `normal`.
+    pub tangent: Vec3,
+    /// v up.
+    pub uv: Vec2,
+    /// Share of the sky that is open, 0 to 1: multiplies the colour (paper, section 6.1).
+    pub occlusion: f32,
+}
+
+/// What a range of triangles is drawn in.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cloth {
+    /// Index into [`Drawing::fabrics`].
+    Fabric(usize),
+    /// No fabric: plain grey, lit from the viewer.
+    Plain,
+}
+
+/// A range of triangles in one cloth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Draw {
+    /// Into [`Drawing::triangles`].
+    pub triangles: Range<u32>,
+    /// What they are drawn in.
+    pub cloth: Cloth,
+}
+
+/// Everything that is drawn, whatever the view.
+#[derive(Debug, Clone, Default)]
+pub struct Drawing {
+    /// The vertices.
+    pub vertices: Vec<Vertex>,
+    /// Corners, counter-clockwise as seen from the front.
+    pub triangles: Vec<[u32; 3]>,
+    /// Which triangles in which cloth, one per panel.
+    pub draws: Vec<Draw>,
+    /// The fabrics in use.
+    pub fabrics: Vec<Arc<Amc>>,
+}
+
+/// What the colour of a fragment is.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Mode {
+    /// The AMC looked up by normal and tangent azimuth.
+    #[default]
+    Amc,
+    /// The mean over the AMC's slices, an ordinary MatCap (paper, section 5.3).
+    Isotropic,
+    /// An ordinary MatCap picture of a ball, for every panel.
+    MatCap(Arc<Picture>),
+    /// The view-space normal after two-sidedness, as `n/2 + 1/2`, sRGB-encoded values.
+    Normals,
+    /// The view-space tangent, made perpendicular to the normal, as `t/2 + 1/2`, sRGB-encoded values.
+    Tangents,
+    /// The UV coordinates' fractional part in red and green, sRGB-encoded values; a checker in blue.
+    Uv,
+}
+
+/// How the cyclic coordinate of the azimuth gets from vertices to fragments (paper, section 6.2).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Cyclic {
+    /// Interpolated as it is: streaks where a triangle crosses the wrap (the paper's figure 9).
+    Naive,
+    /// Interpolated together with a twin half a turn further on; the one with the smaller derivative is taken.
+    #[default]
+    Cyclic,
+    /// The tangent is interpolated, and its azimuth taken per fragment.
+    Fragment,
+}
+
+/// How normals and tangents are turned where the line of sight is not the optical axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Perspective {
+    /// Not at all.
+    Off,
+    /// The paper's equation 4, with the position in view space: x and y separately, `n_z` kept.
+    Paper,
+    /// By the least rotation that takes the line of sight to +z.
+    Full,
+    /// By the least rotation that takes the half vector of the line of sight and +z to +z: where highlights of distant
+    /// lights are.
+    #[default]
+    Half,
+}
+
+/// How a drawing is shaded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shading {
+    /// What the colour is.
+    pub mode: Mode,
+    /// How the azimuth gets to the fragments.
+    pub cyclic: Cyclic,
+    /// What is done about perspective.
+    pub perspective: Perspective,
+    /// Whether the vertices' occlusion multiplies the colour.
+    pub occlusion: bool,
+    /// Samples per pixel, 1 or 4.
+    pub samples: u32,
+    /// Linear Rec. 709 behind everything; none: transparent.
+    pub background: Option<[f32; 3]>,
+}
+
+impl Default for Shading {
+    fn default() -> Self {
+        Self {
+            mode: Mode::Amc,
+            cyclic: Cyclic::Cyclic,
+            perspective: Perspective::Half,
+            occlusion: true,
+            samples: 4,
+            background: None,
+        }
+    }
+}

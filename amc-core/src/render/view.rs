@@ -1,0 +1,101 @@
+//! From where a drawing is seen.
+
+use glam::{Mat3, Mat4, Vec3};
+
+/// How view space becomes the picture. The picture's centre is the optical axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Projection {
+    /// Parallel lines of sight.
+    Orthographic {
+        /// Half of the picture's height, metres.
+        half_height: f32,
+    },
+    /// Through the origin of view space.
+    Perspective {
+        /// Vertical field of view, radians.
+        fov_y: f32,
+    },
+}
+
+/// A view: where the object stands before the camera, the projection, and the picture's size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct View {
+    /// Object space to view space: a rotation and a shift, no scale.
+    pub object_to_view: Mat4,
+    /// How view space becomes the picture.
+    pub projection: Projection,
+    /// Columns of the picture.
+    pub width: u32,
+    /// Rows of the picture.
+    pub height: u32,
+    /// Distances along -z between which things are drawn, metres. `near` is positive in perspective.
+    pub near: f32,
+    /// See `near`.
+    pub far: f32,
+}
+
+impl View {
+    /// View space to clip space: x right, y up, depth 0 at `near` to 1 at `far` (wgpu's).
+    pub fn view_to_clip(&self) -> Mat4 {
+        let aspect = self.width as f32 / self.height as f32;
+        match self.projection {
+            Projection::Orthographic { half_height } => {
+                let half_width = half_height * aspect;
+                let depth = self.far - self.near;
+                Mat4::from_cols_array(&[
+                    1.0 / half_width,
+                    0.0,
+                    0.0,
+                    0.0,
+                    0.0,
+                    1.0 / half_height,
+                    0.0,
+                    0.0,
+                    0.0,
+                    0.0,
+                    -1.0 / depth,
+                    0.0,
+                    0.0,
+                    0.0,
+                    -self.near / depth,
+                    1.0,
+                ])
+            }
+            Projection::Perspective { fov_y } => {
+                let f = 1.0 / (fov_y / 2.0).tan();
+                let depth = self.far - self.near;
+                Mat4::from_cols_array(&[
+                    f / aspect,
+                    0.0,
+                    0.0,
+                    0.0,
+                    0.0,
+                    f,
+                    0.0,
+                    0.0,
+                    0.0,
+                    0.0,
+                    -self.far / depth,
+                    -1.0,
+                    0.0,
+                    0.0,
+                    -self.near * self.far / depth,
+                    0.0,
+                ])
+            }
+        }
+    }
+
+    /// The unit vector from a point of view space towards the eye.
+    pub fn towards_eye(&self, p: Vec3) -> Vec3 {
+        match self.projection {
+            Projection::Orthographic { .. } => Vec3::Z,
+            Projection::Perspective { .. } => (-p).try_normalize().unwrap_or(Vec3::Z),
+        }
+    }
+
+    /// Turns directions from object space to view space.
+    pub fn rotation(&self) -> Mat3 {
+        Mat3::from_mat4(self.object_to_view)
+    }
+}

@@ -1,0 +1,1 @@
+//! Shapes by name, in place of a mesh file.
