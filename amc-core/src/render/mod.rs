@@ -75,7 +75,7 @@ pub enum Mode {
     Amc,
     /// The mean over the AMC's slices, an ordinary MatCap (paper, section 5.3).
     Isotropic,
-    /// An ordinary MatCap picture of a ball, for every panel.
+    /// An ordinary MatCap picture of a ball, for every panel that takes a fabric.
     MatCap(Arc<Picture>),
     /// The view-space normal after two-sidedness, as `n/2 + 1/2`, sRGB-encoded values.
     Normals,

@@ -3,6 +3,7 @@
 use glam::{Vec2, Vec3, Vec4};
 
 use super::{Perspective, View};
+use crate::color::linear_from_srgb;
 use crate::view_space::{Azimuth, perpendicular, turn_to_z};
 
 /// The grey of parts without a fabric, linear.
@@ -93,7 +94,43 @@ pub fn fragment_kappa(
     kappa(azimuth, symmetry, perspective_turn(view, mode, p, n, perpendicular(t, n)))
 }
 
-/// The plain grey of a part without a fabric, lit from the viewer: linear.
+/// The unit normal of a fragment from the interpolated one. Cloth is two-sided: on a back face it is negated, and the
+/// tangent kept. Where the interpolated normal vanishes there is none: +z.
+pub fn facing_normal(n: Vec3, front: bool) -> Vec3 {
+    let n = n.try_normalize().unwrap_or(Vec3::Z);
+    if front { n } else { -n }
+}
+
+/// `(n_x, n_y)` at which tables and MatCap pictures are looked up: the facing normal `n` at the view-space position `p`
+/// turned for perspective, then kept on the disc. A front-facing fragment whose interpolated normal looks away from
+/// the eye lands on the rim.
+pub fn look_up_normal(view: &View, mode: Perspective, p: Vec3, n: Vec3) -> Vec2 {
+    disc_normal(perspective_turn(view, mode, p, n, n).n)
+}
+
+/// Texture coordinates in a table of `slices` slices: u to the right, v up (both clamped), w along the azimuth
+/// (repeating), of the disc's `(n_x, n_y)` and of `kappa` in turns of the axis.
+pub fn table_coordinates(xy: Vec2, kappa: f32, slices: u32) -> Vec3 {
+    Vec3::new((xy.x + 1.0) / 2.0, (xy.y + 1.0) / 2.0, kappa + 0.5 / slices as f32)
+}
+
+/// Texture coordinates in a picture of a ball whose row 0 is the top, of the disc's `(n_x, n_y)`: the how-to's flip.
+pub fn picture_coordinates(xy: Vec2) -> Vec2 {
+    Vec2::new((xy.x + 1.0) / 2.0, (1.0 - xy.y) / 2.0)
+}
+
+/// A unit direction as a colour, sRGB-encoded values: `direction / 2 + 1/2`.
+pub fn direction_colour(direction: Vec3) -> Vec3 {
+    direction / 2.0 + Vec3::splat(0.5)
+}
+
+/// Linear light of sRGB-encoded values: what the views of normals, tangents and UVs store.
+pub fn linear_colour(encoded: Vec3) -> Vec3 {
+    Vec3::new(linear_from_srgb(encoded.x), linear_from_srgb(encoded.y), linear_from_srgb(encoded.z))
+}
+
+/// The plain grey of a part without a fabric, lit from the viewer: linear. `n_z` of the facing normal, not turned for
+/// perspective. Such parts stay grey in the modes `Amc`, `Isotropic` and `MatCap`.
 pub fn plain(n_z: f32) -> Vec3 {
     Vec3::splat(PLAIN_GREY * (0.3 + 0.7 * n_z.max(0.0)))
 }
