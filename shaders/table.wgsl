@@ -6,6 +6,8 @@ struct Fabric {
     symmetry: f32,
     // Sk.
     slices: f32,
+    // A uniform buffer of OpenGL ES is a multiple of 16 bytes.
+    padding: vec2<f32>,
 }
 
 @group(1) @binding(0) var<uniform> fabric: Fabric;

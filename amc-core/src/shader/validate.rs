@@ -64,6 +64,11 @@ impl Checked {
         self.module.functions.iter().filter_map(|(_, function)| function.name.as_deref())
     }
 
+    /// The names of the constants that a pipeline may set (`override`).
+    pub fn overrides(&self) -> impl Iterator<Item = &str> {
+        self.module.overrides.iter().filter_map(|(_, constant)| constant.name.as_deref())
+    }
+
     /// How the structure `name` lies in memory; none where there is none of that name.
     pub fn struct_layout(&self, name: &str) -> Option<StructLayout> {
         self.module.types.iter().find_map(|(_, kind)| match &kind.inner {
