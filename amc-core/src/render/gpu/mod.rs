@@ -23,6 +23,8 @@ pub use mode::{LooksUp, MODES, ShadingMode};
 pub use offscreen::{Offscreen, render_picture};
 pub use pipeline::TargetFormat;
 pub use scene::{Eye, Renderer, Scene, SceneDrawData};
+/// The wgpu that this crate is built with: a second version of it would have other types.
+pub use wgpu;
 
 #[cfg(test)]
 mod tests;

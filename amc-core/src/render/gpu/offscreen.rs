@@ -17,12 +17,12 @@ const PIXEL_LIMIT: u64 = 1 << 26;
 /// How long a picture may take before the device counts as hung.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// Half-float attachments that pictures are drawn into and read back from; kept for pictures of the same size.
+/// Attachments that pictures are drawn into and read back from; kept for pictures of the same size.
 #[derive(Debug)]
 pub struct Offscreen {
     width: u32,
     height: u32,
-    samples: u32,
+    target: TargetFormat,
     /// What is drawn into, where it has several samples.
     multisampled: Option<wgpu::TextureView>,
     depth: wgpu::TextureView,
@@ -31,11 +31,21 @@ pub struct Offscreen {
 }
 
 impl Offscreen {
-    /// Attachments of `width` x `height` pixels with 1 or 4 samples each.
+    /// Half-float attachments of `width` x `height` pixels with 1 or 4 samples each.
     ///
     /// # Errors
     /// No pixel, more than 2^26 pixels or than the device holds, or another number of samples.
     pub fn new(device: &wgpu::Device, width: u32, height: u32, samples: u32) -> Result<Self> {
+        let color = wgpu::TextureFormat::Rgba16Float;
+        let depth = wgpu::TextureFormat::Depth32Float;
+        Self::of_format(device, width, height, TargetFormat { color, depth, samples })
+    }
+
+    /// As [`Offscreen::new`], with attachments of any format.
+    ///
+    /// # Errors
+    /// As [`Offscreen::new`], or the device does not draw into such attachments.
+    pub fn of_format(device: &wgpu::Device, width: u32, height: u32, target: TargetFormat) -> Result<Self> {
         let limit = device.limits().max_texture_dimension_2d;
         if width == 0 || height == 0 {
             return Err(Error::invalid(format!("a picture of {width} x {height} has no pixels")));
@@ -45,13 +55,13 @@ impl Offscreen {
                 "a picture of {width} x {height}; at most {limit} along each side and {PIXEL_LIMIT} pixels are possible"
             )));
         }
-        if !matches!(samples, 1 | 4) {
-            return Err(Error::invalid(format!("{samples} samples per pixel; 1 or 4 are possible")));
+        if !matches!(target.samples, 1 | 4) {
+            return Err(Error::invalid(format!("{} samples per pixel; 1 or 4 are possible", target.samples)));
         }
-        checked(device, "the picture", || Self::create(device, width, height, samples))
+        checked(device, "the picture", || Self::create(device, width, height, target))
     }
 
-    fn create(device: &wgpu::Device, width: u32, height: u32, samples: u32) -> Self {
+    fn create(device: &wgpu::Device, width: u32, height: u32, target: TargetFormat) -> Self {
         let texture = |label, format, sample_count, usage| {
             device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
@@ -65,31 +75,23 @@ impl Offscreen {
             })
         };
         let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
-        let format = Self::format(samples);
+        let TargetFormat { color, depth, samples } = target;
         let none = wgpu::TextureUsages::empty();
-        let resolved = texture("picture", format.color, 1, wgpu::TextureUsages::COPY_SRC);
+        let resolved = texture("picture", color, 1, wgpu::TextureUsages::COPY_SRC);
         Self {
             width,
             height,
-            samples,
-            multisampled: (samples > 1).then(|| view(&texture("samples", format.color, samples, none))),
-            depth: view(&texture("depth", format.depth, samples, none)),
+            target,
+            multisampled: (samples > 1).then(|| view(&texture("samples", color, samples, none))),
+            depth: view(&texture("depth", depth, samples, none)),
             resolved_view: view(&resolved),
             resolved,
         }
     }
 
-    fn format(samples: u32) -> TargetFormat {
-        TargetFormat {
-            color: wgpu::TextureFormat::Rgba16Float,
-            depth: wgpu::TextureFormat::Depth32Float,
-            samples,
-        }
-    }
-
     /// The format of its attachments.
     pub fn target(&self) -> TargetFormat {
-        Self::format(self.samples)
+        self.target
     }
 
     /// Draws a frame over `background` (linear; none: transparent).
@@ -130,17 +132,32 @@ impl Offscreen {
         frame.draw(&mut pass);
     }
 
-    /// Draws a frame and reads it back.
+    /// Draws a frame into half-float attachments and reads it back.
+    ///
+    /// # Errors
+    /// The attachments are not half floats ([`Offscreen::new`]), or the device fails.
+    pub fn picture(&self, gpu: &Gpu, frame: &SceneDrawData, background: Option<[f32; 3]>) -> Result<Picture> {
+        if self.target.color != wgpu::TextureFormat::Rgba16Float {
+            return Err(Error::unsupported(format!("a picture out of {:?}", self.target.color)));
+        }
+        let bytes = self.bytes(gpu, frame, background)?;
+        let pixels = bytes.chunks_exact(8).map(|texel| straight(bytemuck::pod_read_unaligned(texel)));
+        Picture::new(self.width, self.height, pixels.collect())
+    }
+
+    /// Draws a frame and reads its texels back, row by row from the top.
     ///
     /// # Errors
     /// The device fails.
-    pub fn picture(&self, gpu: &Gpu, frame: &SceneDrawData, background: Option<[f32; 3]>) -> Result<Picture> {
+    pub fn bytes(&self, gpu: &Gpu, frame: &SceneDrawData, background: Option<[f32; 3]>) -> Result<Vec<u8>> {
+        let texel_bytes = self.target.color.block_copy_size(None).unwrap_or(0);
+        let row_bytes = self.width * texel_bytes;
         // Rows of a buffer are aligned to 256 bytes.
-        let row_bytes = (self.width * 8).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let read = checked(&gpu.device, "the picture", || {
+        let aligned_row_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = checked(&gpu.device, "the picture", || {
             let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("picture"),
-                size: u64::from(row_bytes) * u64::from(self.height),
+                size: u64::from(aligned_row_bytes) * u64::from(self.height),
                 usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
                 mapped_at_creation: false,
             });
@@ -148,7 +165,7 @@ impl Offscreen {
             self.draw(&mut encoder, frame, background);
             let layout = wgpu::TexelCopyBufferLayout {
                 offset: 0,
-                bytes_per_row: Some(row_bytes),
+                bytes_per_row: Some(aligned_row_bytes),
                 rows_per_image: None,
             };
             let to = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
@@ -156,28 +173,26 @@ impl Offscreen {
             gpu.queue.submit([encoder.finish()]);
             buffer
         })?;
-        self.read(gpu, &read, row_bytes)
+        let aligned = read(gpu, &buffer)?;
+        let rows = aligned.chunks_exact(aligned_row_bytes as usize);
+        Ok(rows.flat_map(|row| row.iter().take(row_bytes as usize)).copied().collect())
     }
+}
 
-    fn read(&self, gpu: &Gpu, buffer: &wgpu::Buffer, row_bytes: u32) -> Result<Picture> {
-        let failed = |error: &dyn std::fmt::Display| Error::device(format!("the picture cannot be read: {error}"));
-        let (send, receive) = std::sync::mpsc::channel();
-        buffer.map_async(wgpu::MapMode::Read, .., move |mapped| {
-            // The receiver is gone only where the wait below has failed already.
-            let _ = send.send(mapped);
-        });
-        gpu.device
-            .poll(wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) })
-            .map_err(|error| failed(&error))?;
-        receive.try_recv().map_err(|error| failed(&error))?.map_err(|error| failed(&error))?;
-        let bytes = buffer.get_mapped_range(..).map_err(|error| failed(&error))?;
-        let mut pixels = Vec::with_capacity(self.width as usize * self.height as usize);
-        for row in bytes.chunks_exact(row_bytes as usize) {
-            let texels = row.chunks_exact(8).take(self.width as usize);
-            pixels.extend(texels.map(|texel| straight(bytemuck::pod_read_unaligned(texel))));
-        }
-        Picture::new(self.width, self.height, pixels)
-    }
+/// The content of a buffer, once the device is done with it.
+fn read(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<wgpu::BufferView> {
+    let failed = |error: &dyn std::fmt::Display| Error::device(format!("the picture cannot be read: {error}"));
+    let (send, receive) = std::sync::mpsc::channel();
+    buffer.map_async(wgpu::MapMode::Read, .., move |mapped| {
+        // The receiver is gone only where the wait below has failed already.
+        let _ = send.send(mapped);
+    });
+    gpu.device
+        .poll(wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) })
+        .map_err(|error| failed(&error))?;
+    // Where several threads wait for one device, another may be the one that calls back, a moment later.
+    receive.recv_timeout(PATIENCE).map_err(|error| failed(&error))?.map_err(|error| failed(&error))?;
+    buffer.get_mapped_range(..).map_err(|error| failed(&error))
 }
 
 /// Straight alpha from premultiplied.
