@@ -217,7 +217,7 @@ fn ground_that_runs_on_behind_the_eye_ends_at_the_near_plane_and_keeps_its_uvs()
 #[test]
 fn the_nearest_is_seen_whatever_the_order_and_the_first_of_equals() {
     let quad = |z: f32, uv: f32| {
-        let corners = [(-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0)];
+        let corners = [(-20.0, -2.0), (20.0, -2.0), (20.0, 2.0), (-20.0, 2.0)];
         corners.map(|(x, y)| Vertex {
             position: Vec3::new(x, y, z),
             normal: Vec3::Z,
