@@ -1,5 +1,7 @@
 //! Pictures: in linear light, rows from the top.
 
+pub mod decode;
+
 use crate::{Error, Result};
 
 /// A picture in linear Rec. 709 light with straight alpha (coverage). Row 0 is the top.
