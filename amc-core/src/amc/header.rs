@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value};
 
-use super::{Amc, Frame, Metadata, Symmetry};
+use super::{Amc, Frame, Metadata, Symmetry, TableSize, Texels};
 use crate::view_space::Azimuth;
 use crate::{Error, Place, Result};
 
@@ -63,6 +63,13 @@ impl Header {
             frame: value("frame", frame)?,
             metadata: value("metadata", Value::Object(map))?,
         })
+    }
+
+    /// The AMC of these texels.
+    pub(crate) fn amc(self, size: TableSize, texels: Texels) -> Result<Amc> {
+        let mut amc = Amc::new(size, texels, self.symmetry, self.azimuth, self.frame)?;
+        amc.metadata = self.metadata;
+        Ok(amc)
     }
 }
 

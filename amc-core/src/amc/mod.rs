@@ -19,7 +19,7 @@ mod tests;
 pub use cyclic::{Interpolation, Taps};
 pub use fill::FILLED;
 pub(crate) use azimuth::normals;
-pub(crate) use header::Header;
+pub(crate) use header::{Header, parse_object};
 pub(crate) use texel_format::texel_name;
 pub use texel_format::TexelFormat;
 pub use memory::Memory;

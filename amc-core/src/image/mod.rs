@@ -1,5 +1,6 @@
 //! Pictures: in linear light, rows from the top.
 
+pub mod decode;
 pub mod encode;
 
 use crate::{Error, Result};

@@ -25,17 +25,14 @@ impl Amc {
             Error::unsupported("a KTX2 file, but no AMC: it has no key `amc` that says how to read its texels")
         })?;
         let rows_from_the_top = orientation(find("KTXorientation"))?;
-        let Header { symmetry, azimuth, frame, metadata } =
-            Header::from_json(parse_object(trim_nul(json), "the key `amc`")?)?;
+        let described = Header::from_json(parse_object(trim_nul(json), "the key `amc`")?)?;
         let (size, format) = shape(&header)?;
         let mut texels = texels(bytes, &header, size, format)?;
         check_finite(&texels, size)?;
         if rows_from_the_top {
             turn_rows_over(&mut texels, size);
         }
-        let mut amc = Self::new(size, texels, symmetry, azimuth, frame)?;
-        amc.metadata = metadata;
-        Ok(amc)
+        described.amc(size, texels)
     }
 }
 
