@@ -7,7 +7,8 @@ use rayon::prelude::*;
 
 use super::texture::Texture;
 use super::vertex::{Axis, Varyings};
-use crate::amc::LinearTable;
+use crate::amc::{Amc, LinearTable};
+use crate::image::Picture;
 use crate::render::shade::{
     direction_colour, facing_normal, fragment_kappa, linear_colour, look_up_normal, picture_coordinates,
     plain, table_coordinates, uv_colour,
@@ -52,24 +53,20 @@ impl Paint {
 
     /// The paint of every fabric that a draw uses.
     fn of_fabrics(drawing: &Drawing, mode: &Mode) -> Result<Vec<Option<Self>>> {
-        let matcap = match mode {
-            Mode::MatCap(picture) => {
-                let texture = Texture::of_picture(picture);
-                Some(Arc::new(texture.ok_or_else(|| Error::invalid("the MatCap picture has no pixels"))?))
-            }
-            _ => None,
+        let picture = |picture: &Picture| match Texture::of_picture(picture) {
+            Some(texture) => Ok(Self::Picture(Arc::new(texture))),
+            None => Err(Error::invalid("the MatCap picture has no pixels")),
         };
+        let matcap = if let Mode::MatCap(ball) = mode { Some(picture(ball)?) } else { None };
         let in_use = |index: usize| drawing.draws.iter().any(|draw| draw.cloth == Cloth::Fabric(index));
-        let of_fabric = |index: usize| match mode {
-            Mode::Amc => Some(Self::Table(Arc::new(drawing.fabrics[index].to_linear()))),
-            Mode::Isotropic => {
-                let mean = Texture::mean_of_slices(&drawing.fabrics[index].to_linear());
-                Some(Self::Picture(Arc::new(mean)))
-            }
-            _ => matcap.clone().map(Self::Picture),
+        let of_fabric = |(index, fabric): (usize, &Arc<Amc>)| match mode {
+            _ if !in_use(index) => Ok(None),
+            Mode::Amc => Ok(Some(Self::Table(Arc::new(fabric.to_linear())))),
+            Mode::Isotropic => picture(&fabric.isotropic()).map(Some),
+            Mode::MatCap(_) => Ok(matcap.clone()),
+            Mode::Normals | Mode::Tangents | Mode::Uv => Ok(None),
         };
-        let indices = (0..drawing.fabrics.len()).into_par_iter();
-        Ok(indices.map(|index| if in_use(index) { of_fabric(index) } else { None }).collect())
+        drawing.fabrics.par_iter().enumerate().map(of_fabric).collect()
     }
 
     /// The axis whose cyclic coordinate the vertices must send for it.

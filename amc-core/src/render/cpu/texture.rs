@@ -2,7 +2,6 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::amc::LinearTable;
 use crate::image::Picture;
 
 /// A texture in linear light; row 0 is the top, v = 0.
@@ -19,24 +18,6 @@ impl Texture {
         let texels: Vec<Vec3> = picture.pixels().iter().map(|&[r, g, b, _]| Vec3::new(r, g, b)).collect();
         let (width, height) = (picture.width() as usize, picture.height() as usize);
         (!texels.is_empty()).then_some(Self { width, height, texels })
-    }
-
-    /// The mean over a table's slices (paper, section 5.3), as a picture of a ball.
-    pub(super) fn mean_of_slices(table: &LinearTable) -> Self {
-        let side = table.size.side() as usize;
-        let mut texels = vec![Vec3::ZERO; side * side];
-        for slice in table.texels.chunks_exact(side * side) {
-            for (j, row) in slice.chunks_exact(side).enumerate() {
-                // The table's row 0 is the bottom.
-                let sums = &mut texels[(side - 1 - j) * side..][..side];
-                for (sum, &[r, g, b, _]) in sums.iter_mut().zip(row) {
-                    *sum += Vec3::new(r, g, b);
-                }
-            }
-        }
-        let share = 1.0 / table.size.slices() as f32;
-        texels.iter_mut().for_each(|texel| *texel *= share);
-        Self { width: side, height: side, texels }
     }
 
     /// The colour at texture coordinates, v downwards from the top.
@@ -61,8 +42,6 @@ impl Texture {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::amc::{Symmetry, TableSize};
-    use crate::view_space::Azimuth;
 
     #[test]
     fn texels_are_reached_at_their_centres_and_mixed_between() {
@@ -72,15 +51,5 @@ mod tests {
         assert_eq!([red(0.25, 0.25), red(0.75, 0.25), red(0.25, 0.75)], [0.0, 1.0, 2.0]);
         assert_eq!([red(0.5, 0.5), red(0.0, 0.0), red(9.0, 9.0), red(-9.0, 0.75)], [1.5, 0.0, 3.0, 2.0]);
         assert!(Texture::of_picture(&Picture::new(0, 0, Vec::new()).unwrap()).is_none());
-    }
-
-    #[test]
-    fn the_mean_of_slices_has_the_top_first() {
-        let size = TableSize::new(2, 2).unwrap();
-        let texels = (0..8).map(|k| [k as f32, 0.0, 0.0, 1.0]).collect();
-        let table = LinearTable { size, texels, symmetry: Symmetry::Two, azimuth: Azimuth::Transported };
-        let mean = Texture::mean_of_slices(&table);
-        // Texels k and k + 4 are those of one normal; j = 1, the upper row, holds 2 and 3.
-        assert_eq!(mean.texels.iter().map(|texel| texel.x).collect::<Vec<_>>(), [4.0, 5.0, 2.0, 3.0]);
     }
 }
