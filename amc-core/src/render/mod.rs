@@ -89,7 +89,7 @@ pub enum Mode {
 }
 
 /// How the cyclic coordinate of the azimuth gets from vertices to fragments (paper, section 6.2).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Cyclic {
     /// Interpolated as it is: streaks where a triangle crosses the wrap (the paper's figure 9).
     Naive,
@@ -101,7 +101,7 @@ pub enum Cyclic {
 }
 
 /// How normals and tangents are turned where the line of sight is not the optical axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Perspective {
     /// Not at all.
     Off,

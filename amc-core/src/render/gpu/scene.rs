@@ -1,0 +1,292 @@
+//! The renderer, a drawing on the GPU, and one frame of it.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::ball::{BallTexture, mean_over_slices};
+use super::bindings::{Bindings, bind_group};
+use super::fabric::FabricTexture;
+use super::mesh::MeshBuffers;
+use super::mode::{LooksUp, ShadingMode};
+use super::pipeline::{PipelineKey, Pipelines, TargetFormat};
+use super::uniforms::{ViewUniforms, buffer};
+use crate::amc::Amc;
+use crate::image::Picture;
+use crate::render::{Cloth, Cyclic, Draw, Drawing, Mode, Perspective, Projection, Shading, View};
+use crate::shader::Sources;
+use crate::view_space::Azimuth;
+use crate::{Error, Result};
+
+/// What lives as long as the device: shaders, pipelines, layouts.
+#[derive(Debug)]
+pub struct Renderer {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    bindings: Bindings,
+    pipelines: Pipelines,
+    /// The MatCap picture used last.
+    matcap: Option<(Arc<Picture>, BallTexture)>,
+}
+
+/// From where one frame is seen: its uniform buffer. Pictures of different views that are drawn in one submission
+/// need one each.
+#[derive(Debug, Clone)]
+pub struct Eye {
+    uniforms: wgpu::Buffer,
+    bind_group: wgpu::BindGroup,
+}
+
+/// A drawing on the GPU, kept between frames.
+#[derive(Debug)]
+pub struct Scene {
+    mesh: MeshBuffers,
+    draws: Vec<Draw>,
+    fabrics: Vec<SceneFabric>,
+}
+
+/// A fabric of a scene.
+#[derive(Debug)]
+struct SceneFabric {
+    amc: Arc<Amc>,
+    texture: FabricTexture,
+    /// The mean over its slices, made when it is first asked for.
+    mean: Option<BallTexture>,
+}
+
+/// One frame: a scene from one view in one shading, ready for passes of one target format. It holds handles only.
+#[derive(Debug, Clone)]
+pub struct SceneDrawData {
+    mesh: MeshBuffers,
+    eye: wgpu::BindGroup,
+    draws: Vec<ReadyDraw>,
+}
+
+#[derive(Debug, Clone)]
+struct ReadyDraw {
+    pipeline: wgpu::RenderPipeline,
+    looked_up: Option<wgpu::BindGroup>,
+    corners: Range<u32>,
+}
+
+impl Renderer {
+    /// A renderer with the embedded shaders. Pipelines are made when they are first needed.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
+        Self::with_shaders(device, queue, Sources::embedded())
+    }
+
+    /// A renderer with the shaders of `sources`.
+    pub fn with_shaders(device: &wgpu::Device, queue: &wgpu::Queue, sources: Sources) -> Self {
+        Self {
+            device: device.clone(),
+            queue: queue.clone(),
+            bindings: Bindings::new(device),
+            pipelines: Pipelines::new(sources),
+            matcap: None,
+        }
+    }
+
+    /// Uploads a drawing.
+    ///
+    /// # Errors
+    /// Indices that point outside of it, or more than the device holds.
+    pub fn prepare(&self, drawing: &Drawing) -> Result<Scene> {
+        check(drawing)?;
+        let fabrics = drawing.fabrics.iter().map(|amc| self.fabric(amc)).collect::<Result<_>>()?;
+        Ok(Scene {
+            mesh: MeshBuffers::new(&self.device, &self.queue, drawing)?,
+            draws: merged(&drawing.draws),
+            fabrics,
+        })
+    }
+
+    /// A place for one view.
+    pub fn eye(&self) -> Eye {
+        let uniforms =
+            buffer(&self.device, &self.queue, "view", &<ViewUniforms as bytemuck::Zeroable>::zeroed());
+        let resources = [uniforms.as_entire_binding()];
+        let bind_group = bind_group(&self.device, "view", &self.bindings.view, &resources);
+        Eye { uniforms, bind_group }
+    }
+
+    /// One frame of `scene`, for passes of the format `target`. `shading.samples` and `shading.background` are the
+    /// pass's business and not looked at. What it needs and is not there yet (pipelines, MatCap textures) is made.
+    ///
+    /// # Errors
+    /// A faulty shader, a MatCap that is too large, or the device refuses.
+    pub fn draw_data(
+        &mut self,
+        scene: &mut Scene,
+        eye: &Eye,
+        view: &View,
+        shading: &Shading,
+        target: TargetFormat,
+    ) -> Result<SceneDrawData> {
+        let uniforms = ViewUniforms::new(view, shading);
+        self.queue.write_buffer(&eye.uniforms, 0, bytemuck::bytes_of(&uniforms));
+        let mut draws = Vec::with_capacity(scene.draws.len());
+        for draw in &scene.draws {
+            let mode = ShadingMode::of(&shading.mode, &draw.cloth);
+            let fabric = match draw.cloth {
+                Cloth::Fabric(index) => scene.fabrics.get_mut(index),
+                Cloth::Plain => None,
+            };
+            let azimuth = fabric.as_ref().map_or(Azimuth::default(), |fabric| fabric.texture.azimuth());
+            let key = key(mode, azimuth, view, shading, target);
+            draws.push(ReadyDraw {
+                pipeline: self.pipelines.get(&self.device, &self.bindings, key)?,
+                looked_up: self.looked_up(mode, shading, fabric)?,
+                corners: draw.triangles.start * 3..draw.triangles.end * 3,
+            });
+        }
+        Ok(SceneDrawData { mesh: scene.mesh.clone(), eye: eye.bind_group.clone(), draws })
+    }
+
+    fn fabric(&self, amc: &Arc<Amc>) -> Result<SceneFabric> {
+        let texture = FabricTexture::new(&self.device, &self.queue, &self.bindings, amc)?;
+        Ok(SceneFabric { amc: Arc::clone(amc), texture, mean: None })
+    }
+
+    fn looked_up(
+        &mut self,
+        mode: ShadingMode,
+        shading: &Shading,
+        fabric: Option<&mut SceneFabric>,
+    ) -> Result<Option<wgpu::BindGroup>> {
+        Ok(match (mode.looks_up, fabric, &shading.mode) {
+            (LooksUp::Table, Some(fabric), _) => Some(fabric.texture.bind_group().clone()),
+            (LooksUp::Ball, _, Mode::MatCap(ball)) => Some(self.matcap(ball)?),
+            (LooksUp::Ball, Some(fabric), _) => Some(self.mean(fabric)?),
+            _ => None,
+        })
+    }
+
+    fn matcap(&mut self, ball: &Arc<Picture>) -> Result<wgpu::BindGroup> {
+        if let Some((known, texture)) = &self.matcap
+            && Arc::ptr_eq(known, ball)
+        {
+            return Ok(texture.bind_group.clone());
+        }
+        let texture = BallTexture::new(&self.device, &self.queue, &self.bindings, ball)?;
+        let bind_group = texture.bind_group.clone();
+        self.matcap = Some((Arc::clone(ball), texture));
+        Ok(bind_group)
+    }
+
+    fn mean(&self, fabric: &mut SceneFabric) -> Result<wgpu::BindGroup> {
+        if let Some(mean) = &fabric.mean {
+            return Ok(mean.bind_group.clone());
+        }
+        let ball = mean_over_slices(&fabric.amc)?;
+        let texture = BallTexture::new(&self.device, &self.queue, &self.bindings, &ball)?;
+        Ok(fabric.mean.insert(texture).bind_group.clone())
+    }
+}
+
+impl Scene {
+    /// The texture of fabric `index` of the drawing, to replace slices of it. The isotropic mean, once shown, stays
+    /// that of the AMC the scene was prepared with.
+    pub fn fabric(&self, index: usize) -> Option<&FabricTexture> {
+        self.fabrics.get(index).map(|fabric| &fabric.texture)
+    }
+
+    /// Draws every panel in the fabric that `draws` gives it, without another upload of the mesh.
+    ///
+    /// # Errors
+    /// A fabric that the scene does not have.
+    pub fn set_cloths(&mut self, cloths: &[(Range<u32>, Cloth)]) -> Result<()> {
+        let draws: Vec<Draw> = cloths
+            .iter()
+            .map(|(triangles, cloth)| Draw { triangles: triangles.clone(), cloth: cloth.clone() })
+            .collect();
+        check_draws(&draws, self.triangles(), self.fabrics.len())?;
+        self.draws = merged(&draws);
+        Ok(())
+    }
+
+    fn triangles(&self) -> usize {
+        (self.mesh.corners.size() / 12) as usize
+    }
+}
+
+impl SceneDrawData {
+    /// Draws into a pass whose attachments have the format this was made for.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        if self.draws.is_empty() {
+            return;
+        }
+        pass.set_bind_group(0, &self.eye, &[]);
+        pass.set_vertex_buffer(0, self.mesh.vertices.slice(..));
+        pass.set_index_buffer(self.mesh.corners.slice(..), wgpu::IndexFormat::Uint32);
+        for draw in &self.draws {
+            pass.set_pipeline(&draw.pipeline);
+            if let Some(looked_up) = &draw.looked_up {
+                pass.set_bind_group(1, looked_up, &[]);
+            }
+            pass.draw_indexed(draw.corners.clone(), 0, 0..1);
+        }
+    }
+}
+
+/// The key of the pipeline that draws `mode`. Settings that the mode or the view does not look at are left at their
+/// defaults, so that they make no pipelines of their own. Orthographic views have no perspective turn.
+fn key(
+    mode: ShadingMode,
+    azimuth: Azimuth,
+    view: &View,
+    shading: &Shading,
+    target: TargetFormat,
+) -> PipelineKey {
+    let looks_up = mode.looks_up;
+    let turned = looks_up != LooksUp::Nothing && matches!(view.projection, Projection::Perspective { .. });
+    let table = looks_up == LooksUp::Table;
+    PipelineKey {
+        mode,
+        cyclic: if table { shading.cyclic } else { Cyclic::default() },
+        perspective: if turned { shading.perspective } else { Perspective::Off },
+        azimuth: if table { azimuth } else { Azimuth::default() },
+        target,
+    }
+}
+
+/// Draws without the empty ones, neighbours of the same cloth as one.
+fn merged(draws: &[Draw]) -> Vec<Draw> {
+    let mut merged: Vec<Draw> = Vec::new();
+    for draw in draws.iter().filter(|draw| !draw.triangles.is_empty()) {
+        match merged.last_mut() {
+            Some(last) if last.cloth == draw.cloth && last.triangles.end == draw.triangles.start => {
+                last.triangles.end = draw.triangles.end;
+            }
+            _ => merged.push(draw.clone()),
+        }
+    }
+    merged
+}
+
+fn check(drawing: &Drawing) -> Result<()> {
+    let count = drawing.vertices.len();
+    let outside = |corner: &u32| *corner as usize >= count;
+    if let Some(index) = drawing.triangles.iter().position(|corners| corners.iter().any(outside)) {
+        return Err(Error::invalid(format!("a corner beyond the {count} vertices"))
+            .at_element(format!("triangle {index}")));
+    }
+    // Corners are counted in 32 bits.
+    if drawing.triangles.len() > (u32::MAX / 3) as usize {
+        return Err(Error::too_large(format!("{} triangles", drawing.triangles.len())));
+    }
+    check_draws(&drawing.draws, drawing.triangles.len(), drawing.fabrics.len())
+}
+
+fn check_draws(draws: &[Draw], triangles: usize, fabrics: usize) -> Result<()> {
+    for (index, draw) in draws.iter().enumerate() {
+        let faulty = |what: String| Err(Error::invalid(what).at_element(format!("draw {index}")));
+        if draw.triangles.start > draw.triangles.end || draw.triangles.end as usize > triangles {
+            return faulty(format!("triangles {:?} of {triangles}", draw.triangles));
+        }
+        if let Cloth::Fabric(fabric) = draw.cloth
+            && fabric >= fabrics
+        {
+            return faulty(format!("fabric {fabric} of {fabrics}"));
+        }
+    }
+    Ok(())
+}

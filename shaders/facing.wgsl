@@ -1,0 +1,13 @@
+// Cloth is two-sided.
+#import view_space
+
+// The unit normal of a fragment from the interpolated one; negated on a back face, where the tangent is kept.
+fn facing_normal(n: vec3<f32>, front: bool) -> vec3<f32> {
+    let unit = normalize_or(n, vec3<f32>(0.0, 0.0, 1.0));
+    return select(-unit, unit, front);
+}
+
+// A unit direction as a colour, sRGB-encoded values.
+fn direction_colour(direction: vec3<f32>) -> vec3<f32> {
+    return direction / 2.0 + 0.5;
+}

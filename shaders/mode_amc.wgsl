@@ -1,0 +1,53 @@
+// Shading mode: the AMC looked up by normal and tangent azimuth (paper, section 6).
+#import color
+#import cyclic
+#import perspective
+#import table
+#import facing
+#import vertex
+#import view_space
+
+struct AmcSurface {
+    @builtin(position) clip: vec4<f32>,
+    // Position in view space, and the light that occlusion leaves.
+    @location(0) p_light: vec4<f32>,
+    // Normal in view space.
+    @location(1) n: vec3<f32>,
+    // Cyclic mode `fragment`: the tangent in view space; else the kappas of `vertex_kappa`.
+    @location(2) direction: vec4<f32>,
+}
+
+@vertex
+fn vertex_main(vertex: Vertex) -> AmcSurface {
+    let p = position_in_view(vertex);
+    let n = direction_in_view(vertex.normal);
+    let t = direction_in_view(vertex.tangent);
+    var surface: AmcSurface;
+    surface.clip = clip_position(p);
+    surface.p_light = vec4<f32>(p, vertex_light(vertex));
+    surface.n = n;
+    if cyclic_mode == 2u {
+        surface.direction = vec4<f32>(t, 0.0);
+    } else {
+        let unit = normalize_or(n, vec3<f32>(0.0, 0.0, 1.0));
+        surface.direction = vertex_kappa(fabric.symmetry, p, unit, perpendicular(t, unit));
+    }
+    return surface;
+}
+
+@fragment
+fn fragment_main(surface: AmcSurface, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
+    let p = surface.p_light.xyz;
+    let n = facing_normal(surface.n, front);
+    var turns: f32;
+    if cyclic_mode == 2u {
+        turns = fragment_kappa(fabric.symmetry, p, n, surface.direction.xyz);
+    } else {
+        let pair = select(surface.direction.zw, surface.direction.xy, front);
+        turns = pair.x;
+        if cyclic_mode == 1u {
+            turns = cyclic_choice(pair, fwidth(pair));
+        }
+    }
+    return opaque(look_up(look_up_normal(p, n), turns) * surface.p_light.w);
+}
