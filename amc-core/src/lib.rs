@@ -14,6 +14,7 @@ pub mod color;
 pub mod direction;
 mod error;
 pub mod exchange;
+pub mod export;
 pub mod file;
 pub mod image;
 pub mod mesh;

@@ -1,9 +1,28 @@
 //! The Anisotropic MatCap: a table of the colour that a cloth shows, under one fixed lighting, at every view-space
 //! normal and every tangent azimuth (Magri, Cignoni, Tarini 2016, section 4).
 
+mod azimuth;
+mod cyclic;
+mod fill;
+mod fold;
+mod header;
+mod isotropic;
+mod ktx2;
+mod texel_format;
+mod memory;
 mod metadata;
+mod resample;
 mod table;
+#[cfg(test)]
+mod tests;
 
+pub use cyclic::{Interpolation, Taps};
+pub use fill::FILLED;
+pub(crate) use azimuth::normals;
+pub(crate) use header::{Header, parse_object};
+pub(crate) use texel_format::texel_name;
+pub use texel_format::TexelFormat;
+pub use memory::Memory;
 pub use metadata::Metadata;
 pub use table::{Amc, LinearTable, TableSize, Texels};
 

@@ -10,8 +10,8 @@ use crate::{Error, Result};
 /// How many texels: `side x side x slices` (Si, Si, Sk in the paper).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct TableSize {
-    side: u32,
-    slices: u32,
+    pub(super) side: u32,
+    pub(super) slices: u32,
 }
 
 impl TableSize {

@@ -1,4 +1,15 @@
 //! The direction of the cloth on a garment: a unit tangent per vertex.
+//!
+//! Source: the paper's section 6 (the gradient of U, or a procedural field). What we add: the yarn source, an angle
+//! per panel, means within a panel only, and what is done where the UV map has no area.
+
+mod field;
+mod fill;
+mod tangents;
+#[cfg(test)]
+mod tests;
+
+pub use tangents::{Tangents, tangents};
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};

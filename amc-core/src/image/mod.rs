@@ -1,5 +1,9 @@
 //! Pictures: in linear light, rows from the top.
 
+pub mod compare;
+pub mod decode;
+pub mod encode;
+
 use crate::{Error, Result};
 
 /// A picture in linear Rec. 709 light with straight alpha (coverage). Row 0 is the top.
@@ -23,6 +27,12 @@ impl Picture {
             )));
         }
         Ok(Self { width, height, pixels })
+    }
+
+    /// A picture of as many pixels as it needs, which the caller has just made.
+    pub(crate) fn of(width: u32, height: u32, pixels: Vec<[f32; 4]>) -> Self {
+        debug_assert_eq!(pixels.len() as u64, u64::from(width) * u64::from(height));
+        Self { width, height, pixels }
     }
 
     /// Columns.

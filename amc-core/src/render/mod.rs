@@ -4,12 +4,15 @@
 //! [`Shading`] how. `cpu` is the reference in plain Rust; `gpu` (feature of that name) is WGSL through wgpu.
 //! [`shade`] holds the shading functions, twins of those in `shaders/`.
 
+mod camera;
 pub mod cpu;
+mod drawing;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod shade;
 mod view;
 
+pub use camera::{Camera, Orientation};
 pub use view::{Projection, View};
 
 use std::ops::Range;

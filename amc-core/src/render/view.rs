@@ -2,6 +2,8 @@
 
 use glam::{Mat3, Mat4, Vec3};
 
+use crate::{Error, Result};
+
 /// How view space becomes the picture. The picture's centre is the optical axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Projection {
@@ -35,6 +37,38 @@ pub struct View {
 }
 
 impl View {
+    /// The largest width and height of a picture.
+    pub const SIDE_LIMIT: u32 = 16_384;
+
+    /// The most pixels of a picture: 1 GiB of them.
+    pub const PIXEL_LIMIT: u64 = 1 << 26;
+
+    /// Whether a picture can be drawn from this view.
+    ///
+    /// # Errors
+    /// The picture is empty or over a limit, a number is not finite, or the projection has no extent.
+    pub fn check(&self) -> Result<()> {
+        check_size(self.width, self.height)?;
+        let positive = match self.projection {
+            Projection::Orthographic { half_height } => half_height > 0.0 && half_height.is_finite(),
+            Projection::Perspective { fov_y } => {
+                fov_y > 0.0 && fov_y < std::f32::consts::PI && self.near > 0.0
+            }
+        };
+        if !positive {
+            return Err(Error::invalid(
+                "the view has no extent: half height and near distance must be positive, the field of view within 0 to 180 degrees",
+            ));
+        }
+        let in_order = self.far > self.near && (self.far - self.near).is_finite();
+        if !in_order || !self.view_to_clip().is_finite() || !self.object_to_view.is_finite() {
+            return Err(Error::invalid(
+                "the view's numbers are not finite, or its far distance is not beyond its near one",
+            ));
+        }
+        Ok(())
+    }
+
     /// View space to clip space: x right, y up, depth 0 at `near` to 1 at `far` (wgpu's).
     pub fn view_to_clip(&self) -> Mat4 {
         let aspect = self.width as f32 / self.height as f32;
@@ -98,4 +132,18 @@ impl View {
     pub fn rotation(&self) -> Mat3 {
         Mat3::from_mat4(self.object_to_view)
     }
+}
+
+/// Whether a picture of this size can be drawn.
+pub(super) fn check_size(width: u32, height: u32) -> Result<()> {
+    let sides = 1..=View::SIDE_LIMIT;
+    let pixels = u64::from(width) * u64::from(height);
+    if sides.contains(&width) && sides.contains(&height) && pixels <= View::PIXEL_LIMIT {
+        return Ok(());
+    }
+    Err(Error::too_large(format!(
+        "a picture of {width} x {height} pixels; each side must hold 1 to {}, and all {} at most",
+        View::SIDE_LIMIT,
+        View::PIXEL_LIMIT
+    )))
 }

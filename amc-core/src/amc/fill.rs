@@ -1,0 +1,245 @@
+//! Texels that nobody measured: off the unit disc, or unseen by the camera.
+//!
+//! In the fourth channel 0 means that a texel holds nothing, [`FILLED`] that it was filled from its neighbours, and 1
+//! that it was measured (or worked out from texels that all were).
+
+use rayon::prelude::*;
+
+use super::{LinearTable, TableSize};
+use crate::{Error, Result};
+
+/// The fourth channel of a texel that was filled in. Above 0, so that no picture editor drops its colour.
+pub const FILLED: f32 = 128.0 / 255.0;
+
+impl TableSize {
+    /// Whether the centre of column `i`, row `j` lies on the unit disc, where normals are.
+    pub fn is_on_disc(self, i: u32, j: u32) -> bool {
+        self.normal_xy(i, j).length_squared() <= 1.0
+    }
+
+    /// For every texel of a slice whether its centre lies on the unit disc, row by row.
+    pub(super) fn disc(self) -> Vec<bool> {
+        let texels = (0..self.side()).flat_map(|j| (0..self.side()).map(move |i| (i, j)));
+        texels.map(|(i, j)| self.is_on_disc(i, j)).collect()
+    }
+}
+
+impl LinearTable {
+    /// Fills every texel that holds nothing (fourth channel 0): on the disc by growing the neighbours in the same slice,
+    /// then, where a slice holds nothing at all, from the nearest slices before and after it along the azimuth; then all
+    /// texels off the disc from its rim.
+    ///
+    /// Within a slice first, because a texel hidden in one picture is seen in others only for *another* tangent.
+    ///
+    /// # Errors
+    /// No texel on the disc holds anything.
+    pub fn fill(&mut self) -> Result<()> {
+        let disc = self.size.disc();
+        let side = self.size.side() as usize;
+        let holds: Vec<bool> =
+            self.texels.par_chunks_mut(side * side).map(|slice| grow(slice, &disc, side)).collect();
+        if !holds.contains(&true) {
+            return Err(Error::invalid("no texel of the table was measured"));
+        }
+        self.fill_empty_slices(&holds);
+        self.fill_off_disc();
+        Ok(())
+    }
+
+    /// Fills all texels off the unit disc from the disc's rim, so that filtering at a silhouette stays inside: each gets
+    /// the bilinear value at the rim point on its radius, taken from texels on the disc only.
+    ///
+    /// A table of one texel has no rim and stays as it is.
+    pub fn fill_off_disc(&mut self) {
+        let sources = rim_sources(self.size);
+        self.texels.par_chunks_mut(self.size.slice_texels()).for_each(|slice| {
+            for source in &sources {
+                let mut sum = [0.0; 4];
+                for &(index, weight) in &source.taps {
+                    for (sum, value) in sum.iter_mut().zip(slice[index]) {
+                        *sum += weight * value;
+                    }
+                }
+                slice[source.texel] = [sum[0], sum[1], sum[2], FILLED];
+            }
+        });
+    }
+
+    fn fill_empty_slices(&mut self, holds: &[bool]) {
+        let (count, texels) = (holds.len(), self.size.slice_texels());
+        for s in (0..count).filter(|&s| !holds[s]) {
+            let held = |step: &usize| holds[(s + step) % count];
+            let (Some(after), Some(before)) = ((1..count).find(held), (1..count).rev().find(held)) else {
+                continue;
+            };
+            let back = count - before;
+            let share = back as f32 / (back + after) as f32;
+            let (before, after) = ((s + before) % count * texels, (s + after) % count * texels);
+            for k in 0..texels {
+                let (a, b) = (self.texels[before + k], self.texels[after + k]);
+                let mut mixed: [f32; 4] = std::array::from_fn(|c| a[c] + (b[c] - a[c]) * share);
+                mixed[3] = FILLED;
+                self.texels[s * texels + k] = mixed;
+            }
+        }
+    }
+}
+
+/// Grows the texels that hold something over those on the disc that do not, ring by ring, each the mean of its
+/// neighbours; whether there was anything to grow.
+fn grow(slice: &mut [[f32; 4]], disc: &[bool], side: usize) -> bool {
+    // Off the disc nothing counts as known: what stands there is background.
+    let mut known: Vec<bool> = slice.iter().zip(disc).map(|(texel, &on)| on && texel[3] > 0.0).collect();
+    let mut unknown: Vec<usize> = (0..slice.len()).filter(|&k| disc[k] && !known[k]).collect();
+    if !known.contains(&true) {
+        return false;
+    }
+    while !unknown.is_empty() {
+        let ring: Vec<(usize, [f32; 4])> =
+            unknown.iter().filter_map(|&k| neighbour_mean(slice, &known, side, k).map(|mean| (k, mean))).collect();
+        // The disc is connected, so a ring is empty only when all is known.
+        if ring.is_empty() {
+            break;
+        }
+        for (k, mean) in ring {
+            slice[k] = mean;
+            known[k] = true;
+        }
+        unknown.retain(|&k| !known[k]);
+    }
+    true
+}
+
+/// The mean of the known ones among the eight neighbours, the diagonal ones at 1/sqrt 2.
+fn neighbour_mean(slice: &[[f32; 4]], known: &[bool], side: usize, k: usize) -> Option<[f32; 4]> {
+    let (x, y) = (k % side, k / side);
+    let (mut sum, mut weights) = ([0.0f32; 3], 0.0f32);
+    for ny in y.saturating_sub(1)..(y + 2).min(side) {
+        for nx in x.saturating_sub(1)..(x + 2).min(side) {
+            let neighbour = ny * side + nx;
+            if known[neighbour] {
+                let weight = if nx == x || ny == y { 1.0 } else { std::f32::consts::FRAC_1_SQRT_2 };
+                weights += weight;
+                for (sum, value) in sum.iter_mut().zip(slice[neighbour]) {
+                    *sum += weight * value;
+                }
+            }
+        }
+    }
+    (weights > 0.0).then(|| [sum[0] / weights, sum[1] / weights, sum[2] / weights, FILLED])
+}
+
+/// What a texel off the disc is made of: texels of the same slice, on the disc, and their shares.
+struct RimSource {
+    texel: usize,
+    taps: Vec<(usize, f32)>,
+}
+
+fn rim_sources(size: TableSize) -> Vec<RimSource> {
+    let side = size.side();
+    let texels = (0..side).flat_map(|j| (0..side).map(move |i| (i, j)));
+    texels
+        .filter(|&(i, j)| !size.is_on_disc(i, j))
+        .filter_map(|(i, j)| {
+            let taps = rim_taps(size, size.normal_xy(i, j).normalize_or_zero());
+            (!taps.is_empty()).then(|| RimSource { texel: (j * side + i) as usize, taps })
+        })
+        .collect()
+}
+
+/// The bilinear footprint of a rim point, without what lies off the disc. Moved inwards by quarters of a texel where
+/// nothing of it is left.
+fn rim_taps(size: TableSize, rim: glam::Vec2) -> Vec<(usize, f32)> {
+    let side = size.side();
+    let last = f64::from(side - 1);
+    for quarters in 0..=2 * side {
+        let inwards = (1.0 - quarters as f32 * 0.5 / side as f32).max(0.0);
+        let at = |xy: f32| ((f64::from(xy * inwards) + 1.0) / 2.0 * f64::from(side) - 0.5).clamp(0.0, last);
+        let (x, y) = (at(rim.x), at(rim.y));
+        let mut taps = Vec::with_capacity(4);
+        for (j, wy) in [(y.floor(), 1.0 - y.fract()), (y.floor() + 1.0, y.fract())] {
+            for (i, wx) in [(x.floor(), 1.0 - x.fract()), (x.floor() + 1.0, x.fract())] {
+                let weight = (wx * wy) as f32;
+                if weight > 1e-3 && i <= last && j <= last && size.is_on_disc(i as u32, j as u32) {
+                    taps.push(((j as u32 * side + i as u32) as usize, weight));
+                }
+            }
+        }
+        let total: f32 = taps.iter().map(|(_, weight)| weight).sum();
+        if total > 0.0 {
+            taps.iter_mut().for_each(|(_, weight)| *weight /= total);
+            return taps;
+        }
+    }
+    Vec::new()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::amc::Symmetry;
+    use crate::view_space::Azimuth;
+
+    fn table(side: u32, slices: u32, texel: impl Fn(u32, u32, u32) -> [f32; 4]) -> LinearTable {
+        let size = TableSize::new(side, slices).unwrap();
+        let texels = (0..slices)
+            .flat_map(|s| (0..side).flat_map(move |j| (0..side).map(move |i| (i, j, s))))
+            .map(|(i, j, s)| texel(i, j, s))
+            .collect();
+        LinearTable { size, texels, symmetry: Symmetry::One, azimuth: Azimuth::Transported }
+    }
+
+    #[test]
+    fn no_background_is_left_after_filling() {
+        for side in [2, 3, 8, 33] {
+            let size = TableSize::new(side, 2).unwrap();
+            // Garish background that must never show, a plain disc.
+            let mut filled = table(side, 2, |i, j, _| {
+                if size.is_on_disc(i, j) { [0.25, 0.5, 0.75, 1.0] } else { [99.0, 99.0, 99.0, 1.0] }
+            });
+            filled.fill().unwrap();
+            for (k, texel) in filled.texels.iter().enumerate() {
+                let on = size.disc()[k % size.slice_texels()];
+                assert_eq!(texel[3], if on { 1.0 } else { FILLED });
+                assert!((texel[0] - 0.25).abs() < 1e-6 && (texel[2] - 0.75).abs() < 1e-6, "{side}: {texel:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_texel_off_the_disc_takes_the_colour_of_its_radius() {
+        // A colour that depends on the direction only: the fill must carry it outwards.
+        let size = TableSize::new(64, 1).unwrap();
+        let angle = |i, j| size.normal_xy(i, j).to_angle();
+        let mut filled = table(64, 1, |i, j, _| [2.0 + angle(i, j).sin(), 2.0 + angle(i, j).cos(), 0.0, 1.0]);
+        let truth = filled.clone();
+        filled.fill().unwrap();
+        for (a, b) in filled.texels.iter().zip(&truth.texels) {
+            assert!((a[0] - b[0]).abs() < 0.04 && (a[1] - b[1]).abs() < 0.04, "{a:?} {b:?}");
+        }
+    }
+
+    #[test]
+    fn holes_are_grown_over_and_empty_slices_taken_from_their_neighbours() {
+        let mut filled = table(16, 4, |i, j, s| {
+            let hole = (6..9).contains(&i) && (5..9).contains(&j);
+            match s {
+                1 | 2 => [0.0; 4],
+                _ if hole => [0.0; 4],
+                _ => [s as f32, i as f32, 0.0, 1.0],
+            }
+        });
+        filled.fill().unwrap();
+        let inside = filled.texel(7, 7, 0);
+        assert!((inside[1] - 7.0).abs() < 0.7 && inside[3] == FILLED, "{inside:?}");
+        // Slices 1 and 2 lie at one and two thirds of the way from slice 0 to slice 3.
+        assert!((filled.texel(3, 8, 1)[0] - 1.0).abs() < 1e-5);
+        assert!((filled.texel(3, 8, 2)[0] - 2.0).abs() < 1e-5);
+        assert_eq!(filled.texel(3, 8, 3), [3.0, 3.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn a_table_that_holds_nothing_is_refused() {
+        assert!(table(4, 2, |_, _, _| [0.0; 4]).fill().is_err());
+    }
+}

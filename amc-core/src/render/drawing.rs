@@ -1,0 +1,138 @@
+//! Drawings made from garments, and checked.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+
+use super::{Cloth, Draw, Drawing, Vertex};
+use crate::amc::Amc;
+use crate::mesh::Garment;
+use crate::{Error, Result};
+
+impl Drawing {
+    /// A garment with a direction for every vertex (unit, object space, perpendicular to the normal), an occlusion for
+    /// every vertex (share of the sky that is open; none: all of it), and a cloth for every panel, asked for by the
+    /// panel's index.
+    ///
+    /// # Errors
+    /// Lists of different lengths; triangles, panels or cloths that refer to what is not there.
+    pub fn new(
+        garment: &Garment,
+        tangents: &[Vec3],
+        occlusion: Option<&[f32]>,
+        fabrics: Vec<Arc<Amc>>,
+        cloth_of_panel: impl Fn(usize) -> Cloth,
+    ) -> Result<Self> {
+        let count = garment.positions.len();
+        check_length("normals", garment.normals.len(), count)?;
+        check_length("UVs", garment.uvs.len(), count)?;
+        check_length("tangents", tangents.len(), count)?;
+        if let Some(occlusion) = occlusion {
+            check_length("occlusion values", occlusion.len(), count)?;
+        }
+        let vertex = |k: usize| Vertex {
+            position: garment.positions[k],
+            normal: garment.normals[k],
+            tangent: tangents[k],
+            uv: garment.uvs[k],
+            occlusion: occlusion.map_or(1.0, |values| values[k]),
+        };
+        let draw = |(index, panel): (usize, &crate::mesh::Panel)| Draw {
+            triangles: panel.triangles.clone(),
+            cloth: cloth_of_panel(index),
+        };
+        let drawing = Self {
+            vertices: (0..count).map(vertex).collect(),
+            triangles: garment.triangles.clone(),
+            draws: garment.panels.iter().enumerate().map(draw).collect(),
+            fabrics,
+        };
+        drawing.check()?;
+        Ok(drawing)
+    }
+
+    /// Whether all that it refers to is there: what both renderers rely on.
+    ///
+    /// # Errors
+    /// A triangle's vertex, a draw's triangles or a cloth's fabric is out of range.
+    pub fn check(&self) -> Result<()> {
+        let vertices = self.vertices.len();
+        let stray = |triangle: &[u32; 3]| triangle.iter().any(|&index| index as usize >= vertices);
+        if let Some(index) = self.triangles.iter().position(stray) {
+            let what = format!("refers to a vertex that is not there; there are {vertices}");
+            return Err(Error::malformed(what).at_element(format!("triangle {index}")));
+        }
+        for (index, draw) in self.draws.iter().enumerate() {
+            let Draw { triangles, cloth } = draw;
+            let fault = if triangles.start > triangles.end || triangles.end as usize > self.triangles.len() {
+                let held = self.triangles.len();
+                format!("triangles {} to {} of a drawing of {held}", triangles.start, triangles.end)
+            } else if let Cloth::Fabric(fabric) = cloth
+                && *fabric >= self.fabrics.len()
+            {
+                format!("fabric {fabric} of a drawing that has {}", self.fabrics.len())
+            } else {
+                continue;
+            };
+            return Err(Error::malformed(fault).at_element(format!("panel {index}")));
+        }
+        Ok(())
+    }
+}
+
+fn check_length(what: &str, held: usize, vertices: usize) -> Result<()> {
+    if held == vertices {
+        return Ok(());
+    }
+    Err(Error::malformed(format!("{held} {what} for {vertices} vertices")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Panel, PanelFlags, Percentiles};
+    use glam::Vec2;
+
+    fn garment() -> Garment {
+        let panel = Panel {
+            id: "a".into(),
+            name: "a".into(),
+            triangles: 0..1,
+            takes_fabric: true,
+            area: 0.5,
+            flags: PanelFlags::default(),
+            stretch: Percentiles::default(),
+            shear: Percentiles::default(),
+        };
+        Garment {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            normals: vec![Vec3::Z; 3],
+            uvs: vec![Vec2::ZERO; 3],
+            triangles: vec![[0, 1, 2]],
+            panels: vec![panel],
+            ..Garment::default()
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_together_is_refused_with_its_place() {
+        let tangents = [Vec3::X; 3];
+        let made = |garment: &Garment, tangents: &[Vec3], occlusion: Option<&[f32]>, cloth: Cloth| {
+            Drawing::new(garment, tangents, occlusion, Vec::new(), |_| cloth.clone())
+        };
+        let drawing = made(&garment(), &tangents, Some(&[0.1, 0.2, 0.3]), Cloth::Plain).unwrap();
+        assert_eq!(drawing.vertices[2].occlusion, 0.3);
+        assert_eq!(drawing.draws, [Draw { triangles: 0..1, cloth: Cloth::Plain }]);
+
+        let message = |result: Result<Drawing>| result.unwrap_err().to_string();
+        assert!(message(made(&garment(), &tangents[..2], None, Cloth::Plain)).contains("2 tangents"));
+        assert!(message(made(&garment(), &tangents, Some(&[1.0]), Cloth::Plain)).contains("1 occlusion"));
+        assert!(message(made(&garment(), &tangents, None, Cloth::Fabric(0))).contains("panel 0"));
+        let mut stray = garment();
+        stray.triangles[0][1] = 3;
+        assert!(message(made(&stray, &tangents, None, Cloth::Plain)).contains("triangle 0"));
+        let mut long = garment();
+        long.panels[0].triangles = 0..2;
+        assert!(message(made(&long, &tangents, None, Cloth::Plain)).contains("0 to 2"));
+    }
+}
