@@ -60,6 +60,19 @@ pub fn save_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
     save(path, |out| out.write_all(bytes).map_err(|source| Error::io("cannot write", source)))
 }
 
+/// Makes a folder and those above it, where they are missing.
+///
+/// # Errors
+/// The operating system refused; the error names the folder.
+pub fn make_folder(folder: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder).map_err(|source| Error::io("cannot make the folder", source).in_file(folder))
+}
+
+/// A name for what was made from `content`: 32 hexadecimal digits, the same for the same content.
+pub fn content_key(content: &[u8]) -> String {
+    blake3::hash(content).to_hex()[..32].to_owned()
+}
+
 /// A temporary file is private to its owner; what is saved has the mode of the file it replaces, else the usual one.
 #[cfg(unix)]
 fn set_usual_permissions(file: &File, replaces: &Path) {

@@ -4,7 +4,6 @@ use half::f16;
 
 use super::bindings::{Bindings, bind_group};
 use super::device::checked;
-use crate::amc::Amc;
 use crate::color::{LINEAR_FROM_SRGB8, srgb8_from_linear};
 use crate::image::Picture;
 use crate::{Error, Result};
@@ -87,22 +86,4 @@ fn create(
         wgpu::BindingResource::Sampler(&bindings.ball_sampler),
     ];
     bind_group(device, "ball", &bindings.ball, &resources)
-}
-
-/// The mean over the slices, in linear light, as the picture of a ball (paper, section 5.3).
-pub(super) fn mean_over_slices(amc: &Amc) -> Result<Picture> {
-    let (table, size) = (amc.to_linear(), amc.size());
-    let side = size.side() as usize;
-    let mut pixels = vec![[0.0; 4]; size.slice_texels()];
-    for slice in table.texels.chunks_exact(size.slice_texels()) {
-        // Rows of a table run upwards, those of a picture downwards.
-        for (row, texels) in pixels.chunks_exact_mut(side).zip(slice.rchunks_exact(side)) {
-            for (pixel, texel) in row.iter_mut().zip(texels) {
-                for (sum, value) in pixel.iter_mut().zip(texel) {
-                    *sum += value / size.slices() as f32;
-                }
-            }
-        }
-    }
-    Picture::new(size.side(), size.side(), pixels)
 }

@@ -13,7 +13,7 @@ pub enum Backend {
     /// Vulkan only.
     Vulkan,
     /// OpenGL (ES) only.
-    OpenGl,
+    Gl,
 }
 
 /// A graphics device and its queue.
@@ -34,7 +34,7 @@ impl Gpu {
     pub fn headless(backend: Backend) -> Result<Self> {
         match backend {
             Backend::Vulkan => Self::open(wgpu::Backends::VULKAN),
-            Backend::OpenGl => Self::open(wgpu::Backends::GL),
+            Backend::Gl => Self::open(wgpu::Backends::GL),
             Backend::Auto => Self::open(wgpu::Backends::VULKAN).or_else(|vulkan| {
                 Self::open(wgpu::Backends::GL)
                     .map_err(|opengl| Error::device(format!("{vulkan}; {opengl}")))
@@ -42,8 +42,8 @@ impl Gpu {
         }
     }
 
-    /// The adapter's name and interface, for people.
-    pub fn adapter(&self) -> String {
+    /// The adapter's name, interface and driver, for people.
+    pub fn name(&self) -> String {
         let info = self.device.adapter_info();
         format!("{} ({}, {} {})", info.name, info.backend, info.driver, info.driver_info)
     }

@@ -11,9 +11,6 @@ use crate::image::Picture;
 use crate::render::{Drawing, Shading, View};
 use crate::{Error, Result};
 
-/// The most pixels that are drawn at once (with 4 samples: 3.5 GB on the device).
-const PIXEL_LIMIT: u64 = 1 << 26;
-
 /// How long a picture may take before the device counts as hung.
 const PATIENCE: Duration = Duration::from_secs(120);
 
@@ -34,7 +31,7 @@ impl Offscreen {
     /// Half-float attachments of `width` x `height` pixels with 1 or 4 samples each.
     ///
     /// # Errors
-    /// No pixel, more than 2^26 pixels or than the device holds, or another number of samples.
+    /// No pixel, more pixels than the device draws, or another number of samples.
     pub fn new(device: &wgpu::Device, width: u32, height: u32, samples: u32) -> Result<Self> {
         let color = wgpu::TextureFormat::Rgba16Float;
         let depth = wgpu::TextureFormat::Depth32Float;
@@ -50,9 +47,9 @@ impl Offscreen {
         if width == 0 || height == 0 {
             return Err(Error::invalid(format!("a picture of {width} x {height} has no pixels")));
         }
-        if width.max(height) > limit || u64::from(width) * u64::from(height) > PIXEL_LIMIT {
+        if width.max(height) > limit {
             return Err(Error::too_large(format!(
-                "a picture of {width} x {height}; at most {limit} along each side and {PIXEL_LIMIT} pixels are possible"
+                "a picture of {width} x {height}; this graphics device draws at most {limit} along each side"
             )));
         }
         if !matches!(target.samples, 1 | 4) {
@@ -206,6 +203,7 @@ fn straight(premultiplied: [f16; 4]) -> [f32; 4] {
 /// # Errors
 /// A drawing whose indices point outside of it, a size or number of samples that is impossible, or the device fails.
 pub fn render_picture(gpu: &Gpu, drawing: &Drawing, view: &View, shading: &Shading) -> Result<Picture> {
+    view.check()?;
     let offscreen = Offscreen::new(&gpu.device, view.width, view.height, shading.samples)?;
     let mut renderer = Renderer::new(&gpu.device, &gpu.queue);
     let mut scene = renderer.prepare(drawing)?;

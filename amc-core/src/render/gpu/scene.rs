@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::ball::{BallTexture, mean_over_slices};
+use super::ball::BallTexture;
 use super::bindings::{Bindings, bind_group};
 use super::fabric::FabricTexture;
 use super::mesh::MeshBuffers;
@@ -90,7 +90,11 @@ impl Renderer {
     /// # Errors
     /// Indices that point outside of it, or more than the device holds.
     pub fn prepare(&self, drawing: &Drawing) -> Result<Scene> {
-        check(drawing)?;
+        drawing.check()?;
+        // Corners are counted in 32 bits.
+        if drawing.triangles.len() > (u32::MAX / 3) as usize {
+            return Err(Error::too_large(format!("{} triangles", drawing.triangles.len())));
+        }
         let fabrics = drawing.fabrics.iter().map(|amc| self.fabric(amc)).collect::<Result<_>>()?;
         Ok(Scene {
             mesh: MeshBuffers::new(&self.device, &self.queue, drawing)?,
@@ -112,7 +116,7 @@ impl Renderer {
     /// pass's business and not looked at. What it needs and is not there yet (pipelines, MatCap textures) is made.
     ///
     /// # Errors
-    /// A faulty shader, a MatCap that is too large, or the device refuses.
+    /// An impossible view, a faulty shader, a MatCap that is too large, or the device refuses.
     pub fn draw_data(
         &mut self,
         scene: &mut Scene,
@@ -121,6 +125,7 @@ impl Renderer {
         shading: &Shading,
         target: TargetFormat,
     ) -> Result<SceneDrawData> {
+        view.check()?;
         let uniforms = ViewUniforms::new(view, shading);
         self.queue.write_buffer(&eye.uniforms, 0, bytemuck::bytes_of(&uniforms));
         let mut draws = Vec::with_capacity(scene.draws.len());
@@ -176,7 +181,7 @@ impl Renderer {
         if let Some(mean) = &fabric.mean {
             return Ok(mean.bind_group.clone());
         }
-        let ball = mean_over_slices(&fabric.amc)?;
+        let ball = fabric.amc.isotropic();
         let texture = BallTexture::new(&self.device, &self.queue, &self.bindings, &ball)?;
         Ok(fabric.mean.insert(texture).bind_group.clone())
     }
@@ -187,24 +192,6 @@ impl Scene {
     /// that of the AMC the scene was prepared with.
     pub fn fabric(&self, index: usize) -> Option<&FabricTexture> {
         self.fabrics.get(index).map(|fabric| &fabric.texture)
-    }
-
-    /// Draws every panel in the fabric that `draws` gives it, without another upload of the mesh.
-    ///
-    /// # Errors
-    /// A fabric that the scene does not have.
-    pub fn set_cloths(&mut self, cloths: &[(Range<u32>, Cloth)]) -> Result<()> {
-        let draws: Vec<Draw> = cloths
-            .iter()
-            .map(|(triangles, cloth)| Draw { triangles: triangles.clone(), cloth: cloth.clone() })
-            .collect();
-        check_draws(&draws, self.triangles(), self.fabrics.len())?;
-        self.draws = merged(&draws);
-        Ok(())
-    }
-
-    fn triangles(&self) -> usize {
-        (self.mesh.corners.size() / 12) as usize
     }
 }
 
@@ -260,33 +247,4 @@ fn merged(draws: &[Draw]) -> Vec<Draw> {
         }
     }
     merged
-}
-
-fn check(drawing: &Drawing) -> Result<()> {
-    let count = drawing.vertices.len();
-    let outside = |corner: &u32| *corner as usize >= count;
-    if let Some(index) = drawing.triangles.iter().position(|corners| corners.iter().any(outside)) {
-        return Err(Error::invalid(format!("a corner beyond the {count} vertices"))
-            .at_element(format!("triangle {index}")));
-    }
-    // Corners are counted in 32 bits.
-    if drawing.triangles.len() > (u32::MAX / 3) as usize {
-        return Err(Error::too_large(format!("{} triangles", drawing.triangles.len())));
-    }
-    check_draws(&drawing.draws, drawing.triangles.len(), drawing.fabrics.len())
-}
-
-fn check_draws(draws: &[Draw], triangles: usize, fabrics: usize) -> Result<()> {
-    for (index, draw) in draws.iter().enumerate() {
-        let faulty = |what: String| Err(Error::invalid(what).at_element(format!("draw {index}")));
-        if draw.triangles.start > draw.triangles.end || draw.triangles.end as usize > triangles {
-            return faulty(format!("triangles {:?} of {triangles}", draw.triangles));
-        }
-        if let Cloth::Fabric(fabric) = draw.cloth
-            && fabric >= fabrics
-        {
-            return faulty(format!("fabric {fabric} of {fabrics}"));
-        }
-    }
-    Ok(())
 }

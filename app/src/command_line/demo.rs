@@ -1,0 +1,43 @@
+//! Without a command: the first look. The bundled satin, on the waving sheet, as a picture.
+
+use std::path::Path;
+
+use amc_core::mesh::Unit;
+use amc_core::render::{Orientation, Shading, View, gpu};
+
+use super::Outcome;
+use super::output::Output;
+use super::progress::with_progress;
+use super::render::PictureFormat;
+use crate::scene::{Fabrics, drawing, load_garment, panel_looks};
+
+/// Where the picture goes: the current folder.
+const PICTURE: &str = "amc-studio.png";
+
+/// Columns, and rows.
+const SIDE: u32 = 1024;
+
+pub(super) fn run(output: &Output) -> Outcome {
+    let garment = load_garment(Path::new("shape:sheet"), Unit::Metre)?;
+    let orientation = Orientation { yaw: -0.4, pitch: 0.35, roll: 0.0 };
+    let view = View::fitted(&garment.positions, orientation, SIDE, SIDE)?;
+    let (picture, renderer) = with_progress(|progress| {
+        let mut fabrics = Fabrics::default();
+        let looks = panel_looks(&garment, None, &[], Some(&mut fabrics), progress)?;
+        let drawing = drawing(&garment, &looks, fabrics, true, progress)?;
+        let gpu = gpu::Gpu::headless(gpu::Backend::Auto)?;
+        Ok((gpu::render_picture(&gpu, &drawing, &view, &Shading::default())?, gpu.name()))
+    })?;
+    let file = Path::new(PICTURE);
+    PictureFormat::Png.save(&picture, file)?;
+    let file = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
+    let result = serde_json::json!({ "picture": file, "renderer": renderer });
+    output.result(&result, || {
+        format!(
+            "The bundled satin on a waving sheet: {}\n\
+             Try also: amc-studio render shape:torus -o torus.png --panel all,angle=90",
+            file.display()
+        )
+    })?;
+    Ok(())
+}

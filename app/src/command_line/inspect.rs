@@ -1,0 +1,145 @@
+//! `amc-studio inspect`: what a mesh, an AMC or a capture session holds.
+
+use std::path::{Path, PathBuf};
+
+use amc_core::amc::Amc;
+use amc_core::capture::Session;
+use amc_core::mesh::{Garment, Panel, Unit};
+use amc_core::{Error, Result};
+use serde_json::{Value, json};
+
+use super::Outcome;
+use super::output::Output;
+use super::render::refuse_projects;
+use super::values::unit;
+use crate::scene::load_garment;
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Arguments {
+    /// A mesh, shape:NAME, an AMC, or a session's folder.
+    file: PathBuf,
+    /// What a mesh's numbers mean: m, dm, cm or mm.
+    #[arg(long, default_value = "m", value_parser = unit)]
+    unit: Unit,
+}
+
+pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
+    refuse_projects(&arguments.file)?;
+    let found = inspect(&arguments.file, arguments.unit)?;
+    output.result(&found, || as_text(&found, 0))?;
+    Ok(())
+}
+
+fn inspect(file: &Path, unit: Unit) -> Result<Value> {
+    if file.is_dir() || file.file_name().is_some_and(|name| name == "session.json") {
+        return session(file);
+    }
+    match file.extension().and_then(|suffix| suffix.to_str()).map(str::to_ascii_lowercase).as_deref() {
+        Some("ktx2") => amc(file),
+        _ => Ok(mesh(&load_garment(file, unit)?)),
+    }
+}
+
+fn mesh(garment: &Garment) -> Value {
+    json!({
+        "kind": "mesh",
+        "vertices": garment.file_vertices,
+        "triangles": garment.triangles.len(),
+        "has_uvs": garment.has_uvs,
+        "panels": garment.panels.iter().map(panel).collect::<Vec<_>>(),
+        "notices": garment.notices,
+    })
+}
+
+fn panel(panel: &Panel) -> Value {
+    json!({
+        "id": panel.id,
+        "name": panel.name,
+        "triangles": panel.triangles.len(),
+        "area": panel.area,
+        "takes_fabric": panel.takes_fabric,
+        "mirrored": panel.flags.mirrored,
+        "degenerate": panel.flags.degenerate,
+        "stretch": { "p50": panel.stretch.p50, "p95": panel.stretch.p95 },
+        "shear": { "p5": panel.shear.p5.to_degrees(), "p95": panel.shear.p95.to_degrees() },
+    })
+}
+
+fn amc(file: &Path) -> Result<Value> {
+    let amc = Amc::read(file)?;
+    let json_error = |error| Error::invalid("its metadata cannot be written as JSON").because::<serde_json::Error>(error);
+    Ok(json!({
+        "kind": "amc",
+        "size": amc.size().side(),
+        "slices": amc.size().slices(),
+        "symmetry": amc.symmetry.order(),
+        "azimuth": amc.azimuth,
+        "frame": amc.frame,
+        "format": amc.texels().format(),
+        "bytes": amc.bytes(),
+        "metadata": serde_json::to_value(&amc.metadata).map_err(json_error)?,
+    }))
+}
+
+fn session(folder: &Path) -> Result<Value> {
+    let session = Session::open(folder)?;
+    Ok(json!({
+        "kind": "session",
+        "pictures": session.pictures.iter().map(|picture| json!({
+            "file": picture.file,
+            "angle_deg": picture.angle.to_degrees(),
+        })).collect::<Vec<_>>(),
+        "turn": session.turn,
+    }))
+}
+
+/// A JSON value as indented lines `key: value`; lists longer than a page by their length.
+fn as_text(value: &Value, depth: usize) -> String {
+    let indent = "  ".repeat(depth);
+    let Value::Object(members) = value else { return format!("{indent}{value}\n") };
+    let mut text = String::new();
+    for (key, member) in members {
+        match member {
+            Value::Object(inner) if !inner.is_empty() && depth < 2 => {
+                text += &format!("{indent}{key}:\n{}", as_text(member, depth + 1));
+            }
+            Value::Array(items) if items.len() > 64 => text += &format!("{indent}{key}: {} of them\n", items.len()),
+            Value::Array(items) if !items.is_empty() => {
+                text += &format!("{indent}{key}:\n");
+                for item in items {
+                    text += &format!("{indent}  {}\n", one_line(item));
+                }
+            }
+            other => text += &format!("{indent}{key}: {}\n", one_line(other)),
+        }
+    }
+    text
+}
+
+/// A value in one line: members as `key value`, numbers short.
+fn one_line(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Number(number) => match (number.as_i64(), number.as_f64()) {
+            (None, Some(float)) => format!("{float:.4}"),
+            _ => number.to_string(),
+        },
+        Value::Object(members) => {
+            let parts: Vec<_> = members.iter().map(|(key, member)| format!("{key} {}", one_line(member))).collect();
+            parts.join(", ")
+        }
+        Value::Array(items) => items.iter().map(one_line).collect::<Vec<_>>().join(" "),
+        other => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nested_values_become_indented_lines() {
+        let value = json!({ "kind": "mesh", "panels": [{ "id": "a", "area": 0.25 }], "empty": [] });
+        assert_eq!(as_text(&value, 0), "kind: mesh\npanels:\n  id a, area 0.2500\nempty: \n");
+    }
+}

@@ -1,0 +1,59 @@
+//! `amc-studio tangents`: the panels' directions, for other programs.
+
+use std::path::{Path, PathBuf};
+
+use amc_core::mesh::Unit;
+use amc_core::{Progress, direction, export};
+
+use super::Outcome;
+use super::output::Output;
+use super::panel_option::PanelOption;
+use super::render::refuse_projects;
+use super::values::unit;
+use crate::scene::{directions, load_garment, panel_looks};
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Arguments {
+    /// A mesh (.obj, .glb, .gltf) or shape:NAME.
+    mesh: PathBuf,
+    /// Where to: .glb, .obj or .json.
+    #[arg(short, long)]
+    output: PathBuf,
+    /// ID|all[,angle=DEGREES][,source=NAME]; repeatable, later ones win.
+    #[arg(long)]
+    panel: Vec<PanelOption>,
+    /// What the mesh's numbers mean: m, dm, cm or mm.
+    #[arg(long, default_value = "m", value_parser = unit)]
+    unit: Unit,
+}
+
+/// What is said about an export.
+#[derive(Debug, serde::Serialize)]
+struct Exported<'a> {
+    file: &'a Path,
+    panels: usize,
+    vertices: usize,
+    notices: &'a [String],
+}
+
+pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
+    refuse_projects(&arguments.mesh)?;
+    let garment = load_garment(&arguments.mesh, arguments.unit)?;
+    for notice in &garment.notices {
+        output.notice(notice);
+    }
+    let looks = panel_looks(&garment, None, &arguments.panel, None, &Progress::none())?;
+    let directions = directions(&looks);
+    let tangents = direction::tangents(&garment, &directions)?;
+    export::tangents(&garment, &tangents, &directions, &arguments.output)?;
+    let exported = Exported {
+        file: &arguments.output,
+        panels: garment.panels.len(),
+        vertices: garment.positions.len(),
+        notices: &garment.notices,
+    };
+    output.result(&exported, || {
+        format!("{}: {} panels, {} vertices", exported.file.display(), exported.panels, exported.vertices)
+    })?;
+    Ok(())
+}

@@ -1,0 +1,39 @@
+//! A scene from the command line: a garment, its panels' fabrics and directions, ready to draw.
+
+mod fabric;
+mod garment;
+mod look;
+
+pub(crate) use fabric::{Fabrics, bundled_fabric};
+pub(crate) use garment::load_garment;
+pub(crate) use look::{PanelLook, directions, panel_looks};
+
+use amc_core::mesh::Garment;
+use amc_core::render::{Cloth, Drawing};
+use amc_core::{Progress, Result, direction, occlusion};
+
+use crate::storage::cache_folder;
+
+/// Occlusion of every vertex, from the cache where it is there.
+fn vertex_occlusion(garment: &Garment, progress: &Progress<'_>) -> Result<Vec<f32>> {
+    let options = occlusion::Options::default();
+    match cache_folder() {
+        Some(folder) => occlusion::cached(garment, &options, &folder.join("occlusion"), progress),
+        None => occlusion::compute(garment, &options, progress),
+    }
+}
+
+/// What is drawn: `garment` in these looks. Occlusion is left out where it is not wanted.
+pub(crate) fn drawing(
+    garment: &Garment,
+    looks: &[PanelLook],
+    fabrics: Fabrics,
+    with_occlusion: bool,
+    progress: &Progress<'_>,
+) -> Result<Drawing> {
+    let tangents = direction::tangents(garment, &directions(looks))?;
+    let occlusion = if with_occlusion { Some(vertex_occlusion(garment, progress)?) } else { None };
+    Drawing::new(garment, &tangents.vectors, occlusion.as_deref(), fabrics.into_tables(), |panel| {
+        looks[panel].fabric.map_or(Cloth::Plain, Cloth::Fabric)
+    })
+}

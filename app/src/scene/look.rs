@@ -1,0 +1,101 @@
+//! The look of every panel: its fabric and its direction.
+
+use std::path::Path;
+
+use amc_core::direction::{Direction, Field, Source};
+use amc_core::mesh::Garment;
+use amc_core::{Error, Progress, Result};
+use glam::Vec3;
+
+use super::Fabrics;
+use crate::command_line::panel_option::{PanelOption, SourceName};
+
+/// One panel's fabric (none: plain grey) and direction.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct PanelLook {
+    pub(crate) fabric: Option<usize>,
+    pub(crate) direction: Direction,
+}
+
+/// The directions alone.
+pub(crate) fn directions(looks: &[PanelLook]) -> Vec<Direction> {
+    looks.iter().map(|look| look.direction).collect()
+}
+
+/// Every panel's look: `amc` (default: the bundled satin) on all that take a fabric, then `options` in their order,
+/// later ones winning. `fabrics` none: only directions are wanted.
+pub(crate) fn panel_looks(
+    garment: &Garment,
+    amc: Option<&Path>,
+    options: &[PanelOption],
+    mut fabrics: Option<&mut Fabrics>,
+    progress: &Progress<'_>,
+) -> Result<Vec<PanelLook>> {
+    let mut looks = vec![PanelLook::default(); garment.panels.len()];
+    let whole: Vec<bool> = garment.panels.iter().map(|panel| panel.takes_fabric).collect();
+    let every_panel_has_its_own = |panel: usize| {
+        options.iter().any(|option| option.amc.is_some() && names(option, &garment.panels[panel].id))
+    };
+    if let Some(fabrics) = fabrics.as_deref_mut() {
+        let needs_default = (0..looks.len()).any(|panel| whole[panel] && !every_panel_has_its_own(panel));
+        if needs_default {
+            let number = match amc {
+                Some(file) => fabrics.from_file(file)?,
+                None => fabrics.bundled(progress)?,
+            };
+            for (look, takes_fabric) in looks.iter_mut().zip(&whole) {
+                look.fabric = takes_fabric.then_some(number);
+            }
+        }
+    }
+    let centre = centre(garment);
+    for option in options {
+        if let Some(id) = &option.id
+            && !garment.panels.iter().any(|panel| panel.id == *id)
+        {
+            let known: Vec<_> = garment.panels.iter().map(|panel| panel.id.as_str()).collect();
+            return Err(Error::invalid(format!("there is no panel '{id}'; the panels are {}", known.join(", "))));
+        }
+        let fabric = match (&option.amc, fabrics.as_deref_mut()) {
+            (Some(file), Some(fabrics)) => Some(fabrics.from_file(file)?),
+            _ => None,
+        };
+        for (look, panel) in looks.iter_mut().zip(&garment.panels) {
+            // 'all' means all cloth; a part that takes no fabric gets one only by its own id.
+            if !names(option, &panel.id) || (option.id.is_none() && !panel.takes_fabric) {
+                continue;
+            }
+            look.fabric = fabric.or(look.fabric);
+            if let Some(degrees) = option.angle_degrees {
+                look.direction.angle = degrees.to_radians();
+            }
+            if let Some(source) = option.source {
+                look.direction.source = source_of(source, centre);
+            }
+        }
+    }
+    Ok(looks)
+}
+
+fn names(option: &PanelOption, id: &str) -> bool {
+    option.id.as_deref().is_none_or(|named| named == id)
+}
+
+fn source_of(name: SourceName, centre: Vec3) -> Source {
+    match name {
+        SourceName::Gradient => Source::Gradient,
+        SourceName::Yarn => Source::Yarn,
+        SourceName::Around(axis) => Source::Field(Field::Around { origin: centre, direction: Vec3::AXES[axis] }),
+        SourceName::Along(axis) => Source::Field(Field::Along { direction: Vec3::AXES[axis] }),
+        SourceName::Radial => Source::Field(Field::Radial { origin: centre }),
+    }
+}
+
+/// The centre of the garment's bounding box, metres.
+fn centre(garment: &Garment) -> Vec3 {
+    let (low, high) = garment
+        .positions
+        .iter()
+        .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
+    (low + high) / 2.0
+}

@@ -1,0 +1,228 @@
+//! The program as its user runs it: every command once, and every refusal with its exit status and its one line.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use studio_tests::materials::{Facets, three_lights};
+use tempfile::TempDir;
+
+/// The program with its caches in `folder`, run in `folder`.
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_amc-studio"))
+        .args(arguments)
+        .current_dir(folder)
+        .env("XDG_CACHE_HOME", folder.join("cache"))
+        .output()
+        .unwrap()
+}
+
+fn done(folder: &Path, arguments: &[&str]) -> String {
+    let output = run(folder, arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn json(folder: &Path, arguments: &[&str]) -> Value {
+    serde_json::from_str(&done(folder, &[arguments, &["--json"]].concat())).unwrap()
+}
+
+/// The one line of a failure.
+fn refused(folder: &Path, arguments: &[&str], status: i32) -> String {
+    let output = run(folder, arguments);
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(status), "{arguments:?}: {message}");
+    let last: Vec<_> = message.lines().filter(|line| line.starts_with("amc-studio: ")).collect();
+    if status == 1 {
+        assert_eq!(last.len(), 1, "one line: {message}");
+        assert!(!message.contains("panicked"), "{message}");
+    }
+    message
+}
+
+fn scratch() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+#[test]
+fn without_a_command_it_makes_a_picture_and_says_where() {
+    let folder = scratch();
+    let said = done(folder.path(), &[]);
+    assert!(said.contains("amc-studio.png"), "{said}");
+    let picture = amc_core::image::read(&folder.path().join("amc-studio.png")).unwrap();
+    let covered = picture.pixels().iter().filter(|pixel| pixel[3] > 0.5).count();
+    assert!(covered > picture.pixels().len() / 5, "{covered} pixels of cloth");
+}
+
+#[test]
+fn from_pictures_of_a_ball_to_a_garment_in_that_cloth() {
+    let folder = scratch();
+    let here = folder.path();
+    std::fs::create_dir(here.join("turn")).unwrap();
+    Facets::new(2).save_turn(&here.join("turn"), &three_lights(), 64, 24, 0.5).unwrap();
+
+    let built = json(here, &["build", "turn", "-o", "cloth.amc.ktx2", "--size", "64"]);
+    assert_eq!((&built["symmetry"], &built["isotropic"]), (&Value::from(2), &Value::from(false)));
+    assert!((built["ball"]["radius"].as_f64().unwrap() - 32.0).abs() < 0.5, "{built}");
+    assert!(built["similarity"]["2"].as_f64().unwrap() < 0.2, "{built}");
+    assert!(built["similarity"]["4"].as_f64().unwrap() > 0.5, "{built}");
+
+    let amc = json(here, &["inspect", "cloth.amc.ktx2"]);
+    assert_eq!(amc["kind"], "amc");
+    assert_eq!((amc["size"].as_u64(), amc["symmetry"].as_u64()), (Some(64), Some(2)));
+    assert_eq!((amc["azimuth"].as_str(), amc["frame"].as_str()), (Some("transported"), Some("half")));
+
+    let common = ["render", "shape:torus", "--amc", "cloth.amc.ktx2", "--size", "200x160", "--occlusion", "off"];
+    done(here, &[&common[..], &["-o", "gpu.png"]].concat());
+    done(here, &[&common[..], &["-o", "cpu.png", "--renderer", "cpu"]].concat());
+    done(here, &[&common[..], &["-o", "turned.exr", "--panel", "all,angle=90,source=yarn"]].concat());
+    let read = |name: &str| amc_core::image::read(&here.join(name)).unwrap();
+    let psnr = |a: &str, b: &str| amc_core::image::compare::psnr_srgb(&read(a), &read(b)).unwrap();
+    assert!(psnr("gpu.png", "cpu.png") > 45.0, "two renderers, one picture: {}", psnr("gpu.png", "cpu.png"));
+    assert!(psnr("gpu.png", "turned.exr") < 30.0, "a turned cloth looks otherwise");
+}
+
+#[test]
+fn tables_are_baked_converted_and_come_back() {
+    let folder = scratch();
+    let here = folder.path();
+    let satin = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/fabrics/satin.json");
+    done(here, &["bake", satin, "-o", "satin.amc.ktx2", "--size", "32", "--slices", "16"]);
+    done(here, &["convert", "satin.amc.ktx2", "atlas.png"]);
+    done(here, &["convert", "atlas.png", "again.amc.ktx2"]);
+    let table = |name: &str| amc_core::amc::Amc::read(&here.join(name)).unwrap();
+    assert_eq!(table("satin.amc.ktx2").texels(), table("again.amc.ktx2").texels());
+    assert_eq!(table("satin.amc.ktx2").symmetry, table("again.amc.ktx2").symmetry);
+    done(here, &["convert", "satin.amc.ktx2", "mean.matcap.png"]);
+    done(here, &["render", "shape:sphere", "-o", "m.png", "--shading", "matcap=mean.matcap.png", "--size", "64x64"]);
+    done(here, &["render", "shape:sphere", "-o", "i.png", "--amc", "satin.amc.ktx2", "--shading", "isotropic", "--size", "64x64"]);
+    let read = |name: &str| amc_core::image::read(&here.join(name)).unwrap();
+    let psnr = amc_core::image::compare::psnr_srgb(&read("m.png"), &read("i.png")).unwrap();
+    assert!(psnr > 40.0, "the isotropic MatCap is the same by file: {psnr}");
+}
+
+#[test]
+fn directions_are_exported_and_panels_listed() {
+    let folder = scratch();
+    let here = folder.path();
+    let mesh = json(here, &["inspect", "shape:sheet"]);
+    assert_eq!(mesh["kind"], "mesh");
+    let panel = &mesh["panels"][0];
+    for key in ["id", "name", "triangles", "area", "mirrored", "degenerate", "stretch", "shear"] {
+        assert!(!panel[key].is_null(), "{key}: {panel}");
+    }
+    let id = panel["id"].as_str().unwrap();
+    for suffix in ["glb", "obj", "json"] {
+        done(here, &["tangents", "shape:sheet", "-o", &format!("t.{suffix}"), "--panel", &format!("{id},angle=45")]);
+        assert!(here.join(format!("t.{suffix}")).metadata().unwrap().len() > 100);
+    }
+    let again = json(here, &["inspect", "t.glb"]);
+    assert_eq!(again["triangles"], mesh["triangles"]);
+}
+
+#[test]
+fn what_is_not_there_yet_is_refused_as_such() {
+    let folder = scratch();
+    let here = folder.path();
+    for arguments in [
+        &["a.amcproj"][..],
+        &["render", "a.amcproj", "-o", "a.png"],
+        &["render", "shape:torus", "-o", "a.png", "--shading", "lines"],
+        &["microfacet", "fit", "x"],
+        &["capture", "-o", "x", "--turntable", "sim:"],
+        &["shaders", "x"],
+        &["build", "x", "-o", "y.amc.ktx2", "--mask", "m.png"],
+        &["build", "x", "-o", "y.amc.ktx2", "--hdr"],
+        &["bake", "x.json", "-o", "y.amc.ktx2", "--lights", "room.exr"],
+    ] {
+        assert!(refused(here, arguments, 2).contains("not available"), "{arguments:?}");
+    }
+    for arguments in [
+        &["render", "shape:torus"][..],
+        &["render", "shape:torus", "-o", "a.bmp"],
+        &["render", "shape:torus", "-o", "a.png", "--size", "0x0"],
+        &["render", "shape:torus", "-o", "a.png", "--shading", "gold"],
+        &["render", "shape:torus", "-o", "a.png", "--panel", "all,angle=north"],
+        &["dance"],
+    ] {
+        refused(here, arguments, 2);
+    }
+}
+
+#[test]
+fn bad_input_gives_one_line_that_names_file_and_reason() {
+    let folder = scratch();
+    let here = folder.path();
+    let write = |name: &str, bytes: &[u8]| amc_core::file::save_bytes(&here.join(name), bytes).unwrap();
+    write("point.obj", b"v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n");
+    write("nan.obj", b"v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
+    write("index.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+    write("empty.glb", b"");
+    write("cut.glb", b"glTF\x02\x00\x00\x00\xff\xff\xff\x7f");
+    write("noise.amc.ktx2", &[7; 300]);
+    write("camera.json", b"{\"world_to_view\": [1, 2]}");
+    write("reflectance.json", b"{\"version\": 1, \"model\": \"gold leaf\"}");
+    for (arguments, names) in [
+        (&["inspect", "missing.obj"][..], "missing.obj"),
+        (&["inspect", "point.obj"], "point.obj"),
+        (&["inspect", "nan.obj"], "nan.obj"),
+        (&["inspect", "index.obj"], "index.obj"),
+        (&["inspect", "empty.glb"], "empty.glb"),
+        (&["inspect", "cut.glb"], "cut.glb"),
+        (&["inspect", "noise.amc.ktx2"], "noise.amc.ktx2"),
+        (&["inspect", "mystery.xyz"], "mystery.xyz"),
+        (&["inspect", "shape:cube"], "torus"),
+        (&["render", "shape:disc-radial", "-o", "a.png", "--camera", "camera.json"], "camera.json"),
+        (&["render", "shape:disc-radial", "-o", "a.png", "--panel", "sleeve,angle=3"], "sleeve"),
+        (&["bake", "reflectance.json", "-o", "a.amc.ktx2"], "gold leaf"),
+        (&["render", "shape:disc-radial", "-o", "nowhere/a.png", "--renderer", "cpu", "--occlusion", "off"], "nowhere"),
+    ] {
+        let message = refused(here, arguments, 1);
+        assert!(message.contains(names), "{arguments:?}: {message}");
+    }
+}
+
+#[test]
+fn bad_pictures_give_one_line_each() {
+    let folder = scratch();
+    let here = folder.path();
+    let cloth = Facets::new(2);
+    let turn = |name: &str| {
+        std::fs::create_dir(here.join(name)).unwrap();
+        cloth.save_turn(&here.join(name), &three_lights(), 32, 8, 0.0).unwrap();
+    };
+    let save = |picture: &amc_core::image::Picture, name: &str| {
+        amc_core::image::encode::save_png(picture, &here.join(name), &[]).unwrap();
+    };
+    turn("broken");
+    amc_core::file::save_bytes(&here.join("broken/0003.png"), b"\x89PNG\r\n\x1a\nnot a picture").unwrap();
+    turn("sizes");
+    save(&cloth.picture(&three_lights(), 48, 0.0, 0.0, 0).unwrap(), "sizes/0005.png");
+    turn("few");
+    std::fs::remove_file(here.join("few/0007.png")).unwrap();
+    std::fs::create_dir(here.join("grey")).unwrap();
+    let grey = amc_core::image::Picture::new(64, 64, vec![[0.2, 0.2, 0.2, 1.0]; 64 * 64]).unwrap();
+    for k in 0..8 {
+        save(&grey, &format!("grey/{k}.png"));
+    }
+    std::fs::create_dir(here.join("nothing")).unwrap();
+    turn("session");
+    amc_core::file::save_bytes(
+        &here.join("session/session.json"),
+        br#"{"version": 1, "turn": "ccw", "pictures": [{"file": "../../secret.png", "angle_deg": 0}]}"#,
+    )
+    .unwrap();
+    for (source, names) in [
+        ("broken", "0003.png"),
+        ("sizes", "0005.png"),
+        ("few", "8"),
+        ("grey", "ball"),
+        ("nothing", "nothing"),
+        ("session", "session.json"),
+        ("missing", "missing"),
+    ] {
+        let message = refused(here, &["build", source, "-o", "a.amc.ktx2"], 1);
+        assert!(message.contains(names), "{source}: {message}");
+        assert!(!here.join("a.amc.ktx2").exists());
+    }
+}

@@ -1,0 +1,97 @@
+//! What a fuzzer feeds. Each target takes any bytes and must end without a panic and without an allocation that the
+//! bytes do not justify. The fuzz crate drives them with new bytes; the test `crashes` with those that once failed.
+
+use std::path::Path;
+
+use amc_core::amc::Amc;
+use amc_core::capture::Session;
+use amc_core::mesh::{Garment, Mesh};
+use amc_core::reflectance::{Description, lights};
+use amc_core::render::Camera;
+use amc_core::{exchange, image, mesh};
+
+/// A fuzz target's name and what it does with the bytes.
+pub type Target = (&'static str, fn(&[u8]));
+
+/// All targets. A parser is one line here and one file in the fuzz crate.
+pub const TARGETS: [Target; 8] = [
+    ("ktx2", ktx2),
+    ("gltf", gltf),
+    ("obj", obj),
+    ("picture", picture),
+    ("session", session),
+    ("camera", camera),
+    ("reflectance", reflectance),
+    ("atlas", atlas),
+];
+
+/// AMC files; what is read is written and read again.
+pub fn ktx2(bytes: &[u8]) {
+    if let Ok(amc) = Amc::from_ktx2(bytes) {
+        let written = amc.to_ktx2().expect("a table that was read can be written");
+        let again = Amc::from_ktx2(&written).expect("a table that was written can be read");
+        assert_eq!(again.texels(), amc.texels());
+    }
+}
+
+/// glTF, both containers; no files beside it.
+pub fn gltf(bytes: &[u8]) {
+    let no_files = |_: &str| Err(amc_core::Error::invalid("no files here"));
+    if let Ok(mesh) = mesh::gltf::parse(bytes, &no_files) {
+        cut_into_panels(mesh);
+    }
+}
+
+/// Wavefront OBJ.
+pub fn obj(bytes: &[u8]) {
+    if let Ok(mesh) = mesh::obj::parse(bytes) {
+        cut_into_panels(mesh);
+    }
+}
+
+/// Whatever a reader lets through must stand the whole way to directions.
+fn cut_into_panels(mesh: Mesh) {
+    if let Ok(garment) = Garment::new(mesh) {
+        let directions = vec![amc_core::direction::Direction::default(); garment.panels.len()];
+        let tangents = amc_core::direction::tangents(&garment, &directions).expect("a checked garment has directions");
+        for tangent in &tangents.vectors {
+            assert!((tangent.length() - 1.0).abs() < 1e-3, "a tangent of length {}", tangent.length());
+        }
+    }
+}
+
+/// JPEG, PNG and EXR, by their first bytes.
+pub fn picture(bytes: &[u8]) {
+    if let Ok(raster) = image::decode(bytes) {
+        let picture = raster.to_picture();
+        assert_eq!(picture.pixels().len(), picture.width() as usize * picture.height() as usize);
+    }
+}
+
+/// `session.json`.
+pub fn session(bytes: &[u8]) {
+    if let Ok(session) = Session::from_json(bytes) {
+        assert!(session.pictures.iter().all(|picture| picture.angle.is_finite()));
+    }
+}
+
+/// `CAMERA.json`.
+pub fn camera(bytes: &[u8]) {
+    drop(Camera::from_json(bytes));
+}
+
+/// Reflectances and lights.
+pub fn reflectance(bytes: &[u8]) {
+    drop(Description::from_json(bytes));
+    drop(lights::from_json(bytes));
+}
+
+/// Slice atlases.
+pub fn atlas(bytes: &[u8]) {
+    drop(exchange::atlas::from_png(bytes));
+}
+
+/// The folder of inputs that once failed, one folder per target.
+pub fn crashes_folder() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/crashes"))
+}

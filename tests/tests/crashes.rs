@@ -1,0 +1,28 @@
+//! Every input that a fuzzer once broke a reader with, again.
+
+use studio_tests::fuzz_targets::{TARGETS, crashes_folder};
+
+#[test]
+fn inputs_that_once_failed_are_refused_or_read() {
+    let mut fed = 0;
+    for folder in std::fs::read_dir(crashes_folder()).unwrap() {
+        let folder = folder.unwrap().path();
+        let name = folder.file_name().unwrap().to_str().unwrap();
+        let (_, target) = TARGETS.iter().find(|(known, _)| *known == name).expect("a folder per target");
+        for input in std::fs::read_dir(&folder).unwrap() {
+            target(&std::fs::read(input.unwrap().path()).unwrap());
+            fed += 1;
+        }
+    }
+    assert!(fed > 0, "the folder of crashes is empty");
+}
+
+#[test]
+fn every_target_stands_nothing_and_noise() {
+    for (_, target) in TARGETS {
+        target(&[]);
+        target(&[0; 4096]);
+        target(b"{\"version\": 1e999, \"asset\": [[[[]]]]}");
+        target("v 0 0 0\nf 1 1 1\nf -1 99999999999 1\u{0}\n".as_bytes());
+    }
+}
