@@ -18,7 +18,6 @@ mod tests;
 
 pub use cyclic::{Interpolation, Taps};
 pub use fill::FILLED;
-pub(crate) use azimuth::normals;
 pub(crate) use header::{Header, parse_object};
 pub(crate) use texel_format::texel_name;
 pub use texel_format::TexelFormat;
