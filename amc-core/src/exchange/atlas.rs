@@ -112,7 +112,7 @@ fn write(amc: &Amc, path: &Path) -> Result<Vec<String>> {
     let mut json = Header::of(amc).to_json()?;
     let described = serde_json::to_value(layout).map_err(|error| Error::invalid(error.to_string()))?;
     json.insert("atlas".into(), described);
-    let json = serde_json::Value::Object(json).to_string();
+    let json = sheet::ascii(&serde_json::Value::Object(json).to_string());
     let sheet = Sheet { width: layout.width(), height: layout.height(), texels };
     file::save_bytes(path, &sheet.encode(&[(KEY, &json)])?)?;
     Ok(lost)

@@ -136,6 +136,20 @@ fn exr_text(bytes: &[u8], name: &str) -> Option<String> {
     })
 }
 
+/// JSON with every letter beyond ASCII escaped: plain text chunks and OpenEXR's attributes hold no others.
+pub(super) fn ascii(json: &str) -> String {
+    let mut escaped = String::with_capacity(json.len());
+    for letter in json.chars() {
+        if letter.is_ascii() {
+            escaped.push(letter);
+        } else {
+            let mut units = [0; 2];
+            escaped.extend(letter.encode_utf16(&mut units).iter().map(|unit| format!("\\u{unit:04x}")));
+        }
+    }
+    escaped
+}
+
 /// Whether a picture's name asks for OpenEXR; PNG otherwise.
 ///
 /// # Errors
