@@ -61,9 +61,12 @@ pub fn bake(description: &Description, options: &BakeOptions, progress: &Progres
     if !(1..=MOST_SAMPLES).contains(&options.samples) {
         return Err(Error::invalid(format!("{} samples; 1 to {MOST_SAMPLES} are taken", options.samples)));
     }
-    let symmetry = options.symmetry.unwrap_or_else(|| exact_symmetry(&*description.reflectance, options.azimuth));
-    let slices = options.slices.unwrap_or_else(|| (2 * options.side / symmetry.order()).max(1).next_power_of_two());
+    let symmetry =
+        options.symmetry.unwrap_or_else(|| exact_symmetry(&*description.reflectance, options.azimuth));
+    let slices =
+        options.slices.unwrap_or_else(|| (2 * options.side / symmetry.order()).max(1).next_power_of_two());
     let size = TableSize::new(options.side, slices)?;
+    size.check_bytes(options.format)?;
     let baker = Baker { reflectance: &*description.reflectance, lighting, options, size, symmetry };
     let table = baker.table(progress)?;
     let cut = table.texels.iter().filter(|texel| texel[..3].iter().any(|&value| value > 1.0)).count();

@@ -13,7 +13,9 @@ use crate::view_space::Azimuth;
 /// modest size holds them.
 fn cloth(weft: f32) -> Description {
     let fibre = |weight: f32| {
-        format!(r#"{{"weight": {weight}, "diffuse": [0.1, 0.05, 0.02], "specular": [0.3, 0.2, 0.1], "exponent": 12}}"#)
+        format!(
+            r#"{{"weight": {weight}, "diffuse": [0.1, 0.05, 0.02], "specular": [0.3, 0.2, 0.1], "exponent": 12}}"#
+        )
     };
     let (warp, weft) = (fibre(1.0), fibre(weft));
     parse(&format!(
@@ -162,12 +164,10 @@ fn the_isotropic_matcap_is_the_mean_with_the_top_row_first() {
     let table = LinearTable { size, texels, symmetry: Symmetry::One, azimuth: Azimuth::Transported };
     let matcap = table.isotropic();
     // Texel (i, j) holds 4s + 2j + i: its mean over s = 0, 1, 2 is 4 + 2j + i.
-    assert_eq!(matcap.pixels(), [
-        [6.0, 0.0, 1.0, 1.0],
-        [7.0, 0.0, 1.0, 1.0],
-        [4.0, 0.0, 1.0, 1.0],
-        [5.0, 0.0, 1.0, 1.0]
-    ]);
+    assert_eq!(
+        matcap.pixels(),
+        [[6.0, 0.0, 1.0, 1.0], [7.0, 0.0, 1.0, 1.0], [4.0, 0.0, 1.0, 1.0], [5.0, 0.0, 1.0, 1.0]]
+    );
 }
 
 #[test]
@@ -185,4 +185,28 @@ fn storing_checks_what_it_is_given() {
     assert!(error.starts_with("texel at column 0, row 0, slice 0"), "{error}");
     assert_eq!(store(1e6, TexelFormat::Srgb8).unwrap().to_linear().texels[0][0], 1.0);
     assert_eq!(store(1.5, TexelFormat::Half).unwrap().to_linear().texels[0][0], 1.5);
+}
+
+#[test]
+fn a_summary_has_what_inspect_promises() {
+    let size = TableSize::new(4, 2).unwrap();
+    let filled = |k: usize| k % 16 == 5;
+    let texel = |k| [9, 9, 9, if filled(k) { 128 } else { 255 }];
+    let texels = Texels::Srgb8((0..size.texels()).map(texel).collect());
+    let amc = Amc::new(size, texels, Symmetry::Two, Azimuth::Projected, Frame::Full).unwrap();
+    let json = serde_json::to_value(amc.summary()).unwrap();
+    for (key, value) in [
+        ("kind", "amc".into()),
+        ("size", 4.into()),
+        ("slices", 2.into()),
+        ("symmetry", 2.into()),
+        ("azimuth", "projected".into()),
+        ("frame", "full".into()),
+        ("format", "R8G8B8A8_SRGB".into()),
+        ("bytes", serde_json::Value::from(128)),
+    ] {
+        assert_eq!(json[key], value, "{key}");
+    }
+    // Twelve of sixteen texels lie on the disc; one of them was filled in.
+    assert!((amc.summary().measured - 11.0 / 12.0).abs() < 1e-9);
 }

@@ -24,7 +24,8 @@ fn seen(description: &Description, n: Vec3, t: Vec3) -> Vec3 {
     let mut sum = description.reflectance.ambient() * lighting.ambient;
     for light in &lighting.lights {
         let to_light = light.towards / light.towards.length();
-        sum += light.irradiance * description.reflectance.reflect(into_cloth * to_light, into_cloth * Vec3::Z);
+        sum +=
+            light.irradiance * description.reflectance.reflect(into_cloth * to_light, into_cloth * Vec3::Z);
     }
     sum
 }
@@ -45,9 +46,7 @@ fn a_texel_is_the_reflectance_at_its_centre() {
                 let flat = Vec3::new(phi.cos(), phi.sin(), 0.0);
                 let t = match azimuth {
                     Azimuth::Transported => glam::Quat::from_rotation_arc(Vec3::Z, n) * flat,
-                    Azimuth::Projected => {
-                        (flat - Vec3::Z * (n.dot(flat) / n.z)).try_normalize().unwrap()
-                    }
+                    Azimuth::Projected => (flat - Vec3::Z * (n.dot(flat) / n.z)).try_normalize().unwrap(),
                 };
                 let [r, g, b, a] = table.texel(i, j, s);
                 let expected = seen(&description, n, t);
@@ -62,7 +61,8 @@ fn a_texel_is_the_reflectance_at_its_centre() {
 #[test]
 fn a_symmetry_the_cloth_lacks_is_the_mean_of_its_directions() {
     let description = satin();
-    let whole = bake(&description, &BakeOptions { slices: Some(48), ..options(Symmetry::One) }, &Progress::none());
+    let whole =
+        bake(&description, &BakeOptions { slices: Some(48), ..options(Symmetry::One) }, &Progress::none());
     let whole = whole.unwrap().to_linear();
     let folded = bake(&description, &options(Symmetry::Four), &Progress::none()).unwrap().to_linear();
     for s in 0..12 {
@@ -117,7 +117,11 @@ fn no_lights_no_samples_and_a_cancel_are_refused() {
     };
     let dark = Description { lighting: None, ..satin() };
     assert!(none(&dark, options(Symmetry::Two)).to_string().contains("give the lights"));
-    assert!(none(&satin(), BakeOptions { samples: 0, ..BakeOptions::default() }).to_string().contains("0 samples"));
+    assert!(
+        none(&satin(), BakeOptions { samples: 0, ..BakeOptions::default() })
+            .to_string()
+            .contains("0 samples")
+    );
     assert!(none(&satin(), BakeOptions { side: 0, ..BakeOptions::default() }).to_string().contains("0 x 0"));
     let cancelled = std::sync::atomic::AtomicBool::new(true);
     let report = |_: crate::Step<'_>| {};

@@ -68,7 +68,8 @@ fn warp_and_weft_change_places_in_a_quarter_turn() {
     let turn = |x: Vec3| Vec3::new(-x.y, x.x, x.z);
     for to_light in directions() {
         for to_viewer in directions().step_by(5) {
-            let difference = cloth.reflect(to_light, to_viewer) - swapped.reflect(turn(to_light), turn(to_viewer));
+            let difference =
+                cloth.reflect(to_light, to_viewer) - swapped.reflect(turn(to_light), turn(to_viewer));
             assert!(difference.length() < 1e-5);
         }
     }
@@ -107,14 +108,19 @@ fn the_bundled_fabrics_parse_and_have_lights() {
 
 #[test]
 fn refusals_have_a_place() {
-    let json = |parameters: &str| format!("{{\"version\": 1, \"model\": \"line\",\n \"parameters\": {parameters}}}");
+    let json =
+        |parameters: &str| format!("{{\"version\": 1, \"model\": \"line\",\n \"parameters\": {parameters}}}");
     let refused = |text: &str| parse(text).unwrap_err().to_string();
     let warp = |exponent: &str| {
         json(&format!(r#"{{"warp": {{"diffuse": [0,0,0], "specular": [1,1,1], "exponent": {exponent}}}}}"#))
     };
     assert!(parse(&warp("10")).is_ok());
     assert!(refused(&warp("0.5")).starts_with("parameters.warp.exponent: 0.5 must be 1 or more"));
-    assert!(refused(&warp("true")).starts_with("line 2, column 82: invalid type"), "{}", refused(&warp("true")));
+    assert!(
+        refused(&warp("true")).starts_with("line 2, column 82: invalid type"),
+        "{}",
+        refused(&warp("true"))
+    );
     assert!(refused(&json("{}")).contains("a cloth needs `warp` or `weft`"));
     assert!(refused(&json(r#"{"wrap": 1}"#)).starts_with("line 2, column"));
     let unknown = refused(r#"{"version": 1, "model": "velvet", "parameters": {"x": 1}}"#);
@@ -130,7 +136,10 @@ fn lights_without_direction_or_with_darkness_are_refused() {
     };
     assert!(light("[0, 0, 5]", "[1, 1, 1]").is_ok());
     let error = light("[0, 0, 0]", "[1, 1, 1]").unwrap_err();
-    assert_eq!((error.kind(), error.to_string().starts_with("lights[0].towards")), (ErrorKind::Invalid, true));
+    assert_eq!(
+        (error.kind(), error.to_string().starts_with("lights[0].towards")),
+        (ErrorKind::Invalid, true)
+    );
     assert!(light("[0, 0, 1]", "[1, -1, 1]").is_err());
     assert!(light("[0, 0, 1]", "[1, 1]").unwrap_err().to_string().starts_with("line 1"));
 }

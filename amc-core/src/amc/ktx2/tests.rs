@@ -1,7 +1,7 @@
 use half::f16;
 use serde_json::json;
 
-use super::super::{Frame, Metadata, Symmetry, TableSize, Texels};
+use super::super::{Frame, Metadata, Symmetry, Texels};
 use super::*;
 use crate::view_space::Azimuth;
 use crate::{ErrorKind, Place};
@@ -63,7 +63,9 @@ fn a_saved_file_is_read_and_a_broken_one_named() {
 /// The file against the specification's own numbers, read without any of our code or of the crate that writes.
 #[test]
 fn the_bytes_are_those_of_the_specification() {
-    for (format, vk_format, type_size, texel) in [(TexelFormat::Srgb8, 43, 1, 4), (TexelFormat::Half, 97, 2, 8)] {
+    for (format, vk_format, type_size, texel) in
+        [(TexelFormat::Srgb8, 43, 1, 4), (TexelFormat::Half, 97, 2, 8)]
+    {
         let bytes = amc(format).to_ktx2().unwrap();
         let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
         let long = |at: usize| u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap());
@@ -89,7 +91,7 @@ fn the_bytes_are_those_of_the_specification() {
                 // Signed floats, -1 to 1 nominal.
                 TexelFormat::Half => (0b1100, (-1.0f32).to_bits(), 1.0f32.to_bits()),
             };
-            let first = k as u32 * bits | (bits - 1) << 16 | (channel | qualifiers << 4) << 24;
+            let first = (k as u32 * bits) | ((bits - 1) << 16) | ((channel | (qualifiers << 4)) << 24);
             assert_eq!(sample, [first, 0, lower, upper], "{format:?} {channel}");
         }
         let keys = &bytes[kvd..kvd + word(60) as usize];
