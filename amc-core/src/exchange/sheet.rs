@@ -143,7 +143,7 @@ fn exr_text(bytes: &[u8], name: &str) -> Option<String> {
         .headers
         .iter()
         .flat_map(|header| header.own_attributes.other.iter().chain(&header.shared_attributes.other));
-    attributes.filter(|(key, _)| key.eq(name)).find_map(|(_, value)| match value {
+    attributes.filter(|(key, _)| **key == *name).find_map(|(_, value)| match value {
         AttributeValue::Text(text) => Some(text.to_string()),
         _ => None,
     })
