@@ -35,7 +35,8 @@ fn main() -> ExitCode {
         if let Err(error) = black_box(made) {
             return fail(&error.to_string());
         }
-        let mut corners = Corners { garment: &garment, tangents: vec![[[0.0; 4]; 3]; garment.triangles.len()] };
+        let mut corners =
+            Corners { garment: &garment, tangents: vec![[[0.0; 4]; 3]; garment.triangles.len()] };
         let start = Instant::now();
         let made = mikktspace::generate_tangents(&mut corners);
         theirs.push(start.elapsed());
