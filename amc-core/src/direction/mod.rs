@@ -9,6 +9,7 @@ mod tangents;
 #[cfg(test)]
 pub(crate) mod tests;
 
+pub(crate) use tangents::uv_orientation;
 pub use tangents::{Tangents, tangents};
 
 use glam::Vec3;
