@@ -9,7 +9,6 @@ mod tangents;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub(crate) use tangents::uv_orientation;
 pub use tangents::{Tangents, tangents};
 
 use glam::Vec3;

@@ -165,7 +165,7 @@ fn the_shapes_have_the_grain_their_names_promise() {
             assert!(off.len() + 512 >= garment.positions.len());
             // A seam's vertex sees one side only: about half a column's turn, 1.5 degrees at most.
             let (most, all) = (off[off.len() * 98 / 100], off[off.len() - 1]);
-            assert!(most < 0.3 && all < 1.1, "{name} {source:?}: {most} and {all} degrees off");
+            assert!(most < 0.5 && all < 1.1, "{name} {source:?}: {most} and {all} degrees off");
         }
     }
 }
@@ -255,6 +255,22 @@ fn filling_carries_a_constant_direction_across_any_number_of_rings() {
         let expected = tilt() * Vec2::from_angle(0.3).extend(0.0);
         assert!(got.vectors.iter().all(|&t| degrees_between(t, expected) < 0.01));
     }
+}
+
+#[test]
+fn filling_crosses_a_crease() {
+    // Two halves of one panel whose normals differ, so that the vertices between them are doubled.
+    let (mut left, mut right) =
+        (grid(Quat::IDENTITY, 0.0, |p| p), grid(Quat::IDENTITY, 0.0, |p| Vec2::new(6.0, p.y)));
+    left.normals = vec![Vec3::new(-0.6, 0.0, 0.8); 49];
+    right.normals = vec![Vec3::new(0.6, 0.0, 0.8); 49];
+    right.positions.iter_mut().for_each(|p| p.x += 6.0);
+    let mut garment = garment_of(&[left, right]);
+    garment.panels.pop();
+    garment.panels[0].triangles.end *= 2;
+    let got = tangents(&garment, &one(Source::Gradient, FRAC_PI_2)).unwrap();
+    assert_eq!((&got.filled[..], &got.made_up[..]), (&[49][..], &[false][..]));
+    assert!(got.vectors.iter().all(|&t| degrees_between(t, Vec3::Y) < 0.01));
 }
 
 #[test]

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use glam::{Vec2, Vec3, Vec4};
 
-use crate::direction::{Direction, Source, Tangents, uv_orientation};
-use crate::mesh::{Garment, Panel};
+use crate::direction::{Direction, Source, Tangents};
+use crate::mesh::{Garment, Panel, uv_area};
 
 /// A panel's part of a garment.
 #[derive(Debug)]
@@ -86,10 +86,10 @@ impl<'a> Piece<'a> {
 fn orientations(triangles: &[[u32; 3]], uvs: &[Vec2], usual: f32) -> Vec<f32> {
     let mut sums = vec![0.0; uvs.len()];
     for corners in triangles {
-        if let Some(orientation) = uv_orientation(corners.map(|corner| uvs[corner as usize])) {
-            for &corner in corners {
-                sums[corner as usize] += orientation;
-            }
+        // Never both signs at one vertex: a garment's vertices belong to one orientation.
+        let area = uv_area(corners.map(|corner| uvs[corner as usize]));
+        for &corner in corners {
+            sums[corner as usize] += area;
         }
     }
     sums.into_iter().map(|sum| if sum == 0.0 { usual } else { f32::signum(sum) }).collect()
