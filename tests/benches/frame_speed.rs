@@ -58,7 +58,8 @@ fn main() -> ExitCode {
 /// Prints the medians of both frames; their ratio.
 fn compare(gpu: &Gpu, samples: u32, format: &str, texels: &Texels, cyclic: Cyclic) -> f64 {
     let size = TableSize::new(SIDE, SLICES).expect("a size");
-    let amc = Amc::new(size, texels.clone(), Symmetry::Two, Azimuth::Transported, Frame::Half).expect("a table");
+    let amc =
+        Amc::new(size, texels.clone(), Symmetry::Two, Azimuth::Transported, Frame::Half).expect("a table");
     let ball = Arc::new(slice_as_picture(&amc));
     let drawing = sheet(Arc::new(amc));
     let mut renderer = Renderer::new(&gpu.device, &gpu.queue);
@@ -153,7 +154,8 @@ fn sheet(fabric: Arc<Amc>) -> Drawing {
 
 /// A smooth table with all values in use.
 fn srgb8() -> Texels {
-    let value = |x: u32, y: u32, s: u32| (127.5 + 127.0 * (0.05 * (x + 2 * y) as f32 + 0.1 * s as f32).sin()) as u8;
+    let value =
+        |x: u32, y: u32, s: u32| (127.5 + 127.0 * (0.05 * (x + 2 * y) as f32 + 0.1 * s as f32).sin()) as u8;
     let texel = |k: u32| {
         let (i, j, s) = (k % SIDE, k / SIDE % SIDE, k / (SIDE * SIDE));
         [value(i, j, s), value(j, i, s), value(i, i, j), 255]
@@ -163,7 +165,8 @@ fn srgb8() -> Texels {
 
 fn half(texels: &Texels) -> Texels {
     let size = TableSize::new(SIDE, SLICES).expect("a size");
-    let amc = Amc::new(size, texels.clone(), Symmetry::Two, Azimuth::Transported, Frame::Half).expect("a table");
+    let amc =
+        Amc::new(size, texels.clone(), Symmetry::Two, Azimuth::Transported, Frame::Half).expect("a table");
     let mut linear = amc.to_linear();
     // Off the 8-bit values, so that the MatCap is kept in half floats too.
     linear.texels.iter_mut().for_each(|texel| *texel = texel.map(|value| value * 0.97 + 0.011));

@@ -105,12 +105,16 @@ fn pixel(picture: &Raster, x: usize, y: usize) -> [f32; 4] {
     let channels = picture.channels() as usize;
     let start = (y * picture.width() as usize + x) * channels;
     match picture.samples() {
-        Samples::U8(samples) => spread(samples.get(start..start + channels), |value| {
-            crate::color::LINEAR_FROM_SRGB8[usize::from(value)]
-        }, |alpha| f32::from(alpha) / 255.0),
-        Samples::U16(samples) => spread(samples.get(start..start + channels), |value| {
-            LINEAR_FROM_SRGB16[usize::from(value)]
-        }, |alpha| f32::from(alpha) / 65535.0),
+        Samples::U8(samples) => spread(
+            samples.get(start..start + channels),
+            |value| crate::color::LINEAR_FROM_SRGB8[usize::from(value)],
+            |alpha| f32::from(alpha) / 255.0,
+        ),
+        Samples::U16(samples) => spread(
+            samples.get(start..start + channels),
+            |value| LINEAR_FROM_SRGB16[usize::from(value)],
+            |alpha| f32::from(alpha) / 65535.0,
+        ),
         Samples::F32(samples) => spread(samples.get(start..start + channels), |value| value, |alpha| alpha),
     }
 }

@@ -7,7 +7,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use glam::DVec2;
 use half::f16;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use super::ball;
 use super::cone::{Lens, Sight};
@@ -18,7 +17,7 @@ use super::resample::{Footprints, Texel};
 use super::session::Turn;
 use super::symmetry::{self, Analysis, DEFAULT_THRESHOLD};
 use super::turn::{Spline, Stack, reading_turn};
-use crate::amc::{Amc, Frame, Symmetry, TableSize, Texels};
+use crate::amc::{Amc, Frame, Symmetry, TableSize, TexelFormat, Texels};
 use crate::color::srgb8_from_linear;
 use crate::image::decode::{Raster, read_raster};
 use crate::view_space::Azimuth;
@@ -33,17 +32,6 @@ const MOST_STACK_BYTES: u64 = 8 << 30;
 
 /// Texels resampled along the turn at once.
 const BLOCK: usize = 64;
-
-/// How a table's texels are kept.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum TexelFormat {
-    /// 8 bits, sRGB-encoded.
-    #[default]
-    Srgb8,
-    /// 16-bit floats, linear.
-    Half,
-}
 
 /// How to build.
 #[derive(Debug, Clone, PartialEq)]
@@ -163,7 +151,13 @@ pub fn build(source: &Path, options: &BuildOptions, progress: &Progress<'_>) -> 
         similarity: analysis.similarity,
         threshold: options.threshold,
         noise: analysis.noise,
-        ball: Ball { x: at.x, y: at.y, radius, residual, cone_half_angle_deg: sight.half_angle().to_degrees() },
+        ball: Ball {
+            x: at.x,
+            y: at.y,
+            radius,
+            residual,
+            cone_half_angle_deg: sight.half_angle().to_degrees(),
+        },
         coverage,
         size: size.side(),
         slices,
@@ -180,7 +174,10 @@ pub fn build(source: &Path, options: &BuildOptions, progress: &Progress<'_>) -> 
 fn check(options: &BuildOptions) -> Result<()> {
     TableSize::new(options.side, options.slices.unwrap_or(1))?;
     if options.side < 4 {
-        return Err(Error::invalid(format!("a table of {0} x {0} texels; at least 4 are needed", options.side)));
+        return Err(Error::invalid(format!(
+            "a table of {0} x {0} texels; at least 4 are needed",
+            options.side
+        )));
     }
     if !(options.threshold >= 0.0 && options.threshold.is_finite()) {
         return Err(Error::invalid(format!("a threshold of {}; it must be 0 or more", options.threshold)));
@@ -197,7 +194,13 @@ fn nearest_slices(pictures: usize, symmetry: Symmetry) -> u32 {
     nearest.clamp(8, TableSize::LIMIT)
 }
 
-fn notices(plan: &Plan, options: &BuildOptions, size: TableSize, analysis: &Analysis, frame: Frame) -> Vec<String> {
+fn notices(
+    plan: &Plan,
+    options: &BuildOptions,
+    size: TableSize,
+    analysis: &Analysis,
+    frame: Frame,
+) -> Vec<String> {
     let mut notices = plan.notices.clone();
     if !size.is_power_of_two() {
         notices.push(format!("the table's size {} x {} is no power of two", size.side(), size.slices()));
@@ -209,7 +212,8 @@ fn notices(plan: &Plan, options: &BuildOptions, size: TableSize, analysis: &Anal
         && analysis.symmetry(options.threshold) < asked
         && !analysis.isotropic
     {
-        notices.push(format!("the pictures do not repeat {} times in a turn, as was asked for", asked.order()));
+        notices
+            .push(format!("the pictures do not repeat {} times in a turn, as was asked for", asked.order()));
     }
     notices
 }
@@ -273,7 +277,12 @@ impl<'a> Reading<'a> {
     }
 
     /// The texels of all pictures: of those kept, and of all others, each dropped as soon as it is resampled.
-    fn resample(&self, first: &First<'_>, kept: Vec<(usize, Raster)>, footprints: &Footprints) -> Result<Stack> {
+    fn resample(
+        &self,
+        first: &First<'_>,
+        kept: Vec<(usize, Raster)>,
+        footprints: &Footprints,
+    ) -> Result<Stack> {
         let mut texels: Vec<Option<Vec<f16>>> = vec![None; self.plan.pictures.len()];
         let from_kept: Vec<(usize, Vec<f16>)> =
             kept.into_par_iter().map(|(k, raster)| (k, footprints.resample(&raster))).collect();
@@ -348,7 +357,8 @@ impl Slicing<'_> {
         // A texel that half of the pictures hide is filled like the rim.
         let measured: Vec<bool> = shown.iter().map(|&shown| shown >= 0.5).collect();
         let fill = RimFill::new(self.size.side(), &self.footprints.texels, &measured)?;
-        let coverage = measured.iter().filter(|&&measured| measured).count() as f64 / disc_texels(self.size) as f64;
+        let coverage =
+            measured.iter().filter(|&&measured| measured).count() as f64 / disc_texels(self.size) as f64;
         let texels = match format {
             TexelFormat::Srgb8 => {
                 let encode = &*SRGB8_FROM_HALF;
@@ -382,7 +392,8 @@ impl Slicing<'_> {
                 }
             });
             if self.one_look {
-                let mean = std::array::from_fn(|c| sums.iter().map(|sum| sum[c]).sum::<f32>() / slices as f32);
+                let mean =
+                    std::array::from_fn(|c| sums.iter().map(|sum| sum[c]).sum::<f32>() / slices as f32);
                 sums.fill(mean);
             }
             colours.extend(sums.iter().map(|sum| sum.map(|value| f16::from_f32(value.min(65504.0)))));
@@ -397,7 +408,8 @@ impl Slicing<'_> {
         let order = self.symmetry.order() as usize;
         let directions = order * slices;
         // Half a turn of the tangent is half a turn of the ball, at every normal.
-        let (reckoned, copies) = if directions.is_multiple_of(2) { (directions / 2, 2) } else { (directions, 1) };
+        let (reckoned, copies) =
+            if directions.is_multiple_of(2) { (directions / 2, 2) } else { (directions, 1) };
         for direction in 0..reckoned {
             let turn = reading_turn(texel, self.azimuth, TAU * direction as f64 / directions as f64);
             for copy in 0..copies {
@@ -416,15 +428,15 @@ impl Slicing<'_> {
         encode: impl Fn([f16; 3], f32) -> T + Sync,
     ) -> Vec<T> {
         let slices = self.size.slices() as usize;
-        let colour = |texel: usize, slice: usize| {
-            blocks[texel / BLOCK].colours[(texel % BLOCK) * slices + slice]
-        };
+        let colour =
+            |texel: usize, slice: usize| blocks[texel / BLOCK].colours[(texel % BLOCK) * slices + slice];
         let mut texels = vec![empty; self.size.texels()];
         texels.par_chunks_mut(self.size.slice_texels()).enumerate().for_each(|(slice, texels)| {
             for (k, texel) in self.footprints.texels.iter().enumerate() {
                 let at = (texel.j * self.size.side() + texel.i) as usize;
                 // Full only where every picture showed it.
-                texels[at] = encode(colour(k, slice), if shown[k] >= 1.0 { 1.0 } else { 0.5 + shown[k] * 0.49 });
+                texels[at] =
+                    encode(colour(k, slice), if shown[k] >= 1.0 { 1.0 } else { 0.5 + shown[k] * 0.49 });
             }
             fill.each(|at, sources| {
                 let mut sum = [0.0; 3];
@@ -452,9 +464,14 @@ mod tests {
 
     #[test]
     fn slices_are_the_nearest_power_of_two() {
-        let cases = [(128, 2, 64), (96, 2, 64), (37, 1, 32), (100, 1, 128), (8, 4, 8), (100, 3, 32), (4096, 1, 2048)];
+        let cases =
+            [(128, 2, 64), (96, 2, 64), (37, 1, 32), (100, 1, 128), (8, 4, 8), (100, 3, 32), (4096, 1, 2048)];
         for (pictures, order, slices) in cases {
-            assert_eq!(nearest_slices(pictures, Symmetry::try_from(order).unwrap()), slices, "{pictures} {order}");
+            assert_eq!(
+                nearest_slices(pictures, Symmetry::try_from(order).unwrap()),
+                slices,
+                "{pictures} {order}"
+            );
         }
     }
 }

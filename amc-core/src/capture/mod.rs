@@ -15,7 +15,7 @@ mod session;
 mod symmetry;
 mod turn;
 
-pub use build::{BuildOptions, Built, TexelFormat, build};
+pub use build::{BuildOptions, Built, build};
 pub use pictures::{FEWEST_PICTURES, MOST_PICTURES};
 pub use report::{Ball, BuildReport};
 pub use session::{SESSION_FILE, Session, SessionPicture, Turn};

@@ -2,10 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::build::TexelFormat;
 use super::session::Turn;
 use super::symmetry::Similarity;
-use crate::amc::{Frame, Symmetry};
+use crate::amc::{Frame, Symmetry, TexelFormat};
 use crate::view_space::Azimuth;
 
 /// Where the ball is in the pictures. Pixel coordinates: (0, 0) is the top-left corner, pixel centres at +0.5.

@@ -62,7 +62,10 @@ impl Analysis {
             (self.similarity.three, Symmetry::Three),
             (self.similarity.two, Symmetry::Two),
         ];
-        measured.into_iter().find(|(rho, _)| *rho <= threshold).map_or(Symmetry::One, |(_, symmetry)| symmetry)
+        measured
+            .into_iter()
+            .find(|(rho, _)| *rho <= threshold)
+            .map_or(Symmetry::One, |(_, symmetry)| symmetry)
     }
 }
 
@@ -146,14 +149,17 @@ impl Sums {
 
     fn add(&mut self, look: &[[f32; 3]]) {
         let count = look.len();
-        let mean: [f64; 3] =
-            std::array::from_fn(|c| look.iter().map(|colour| f64::from(colour[c])).sum::<f64>() / count as f64);
-        let spread = |colour: &[f32; 3]| (0..3).map(|c| (f64::from(colour[c]) - mean[c]).powi(2)).sum::<f64>();
+        let mean: [f64; 3] = std::array::from_fn(|c| {
+            look.iter().map(|colour| f64::from(colour[c])).sum::<f64>() / count as f64
+        });
+        let spread =
+            |colour: &[f32; 3]| (0..3).map(|c| (f64::from(colour[c]) - mean[c]).powi(2)).sum::<f64>();
         self.count += 3.0;
         self.variance += look.iter().map(spread).sum::<f64>() / count as f64;
         for (sum, order) in self.difference.iter_mut().zip(2..) {
             let later = look.iter().cycle().skip(count / order);
-            let squares = look.iter().zip(later).flat_map(|(a, b)| (0..3).map(|c| f64::from(a[c] - b[c]).powi(2)));
+            let squares =
+                look.iter().zip(later).flat_map(|(a, b)| (0..3).map(|c| f64::from(a[c] - b[c]).powi(2)));
             *sum += squares.sum::<f64>() / count as f64;
         }
     }
@@ -187,7 +193,12 @@ fn noise_variance(stack: &Stack, texels: &[Texel], side: u32, spline: &Spline) -
             }
             let (values, shown) = stack.gather(&around);
             let there = shown.iter().all(|&shown| shown >= 1.0);
-            there.then(|| (space_and_turn(&values), (spline.len() >= 24 && spline.is_even()).then(|| turn_only(&values))))
+            there.then(|| {
+                (
+                    space_and_turn(&values),
+                    (spline.len() >= 24 && spline.is_even()).then(|| turn_only(&values)),
+                )
+            })
         })
         .collect();
     let count = estimates.len().max(1) as f64;
@@ -216,10 +227,8 @@ fn space_and_turn(values: &[f32]) -> f64 {
 
 /// The noise's variance from the middle of 3 x 3 texels: fourth differences along the turn.
 fn turn_only(values: &[f32]) -> f64 {
-    let curve: Vec<[f32; 3]> = values
-        .chunks_exact(27)
-        .map(|picture| std::array::from_fn(|c| perceived(picture[12 + c])))
-        .collect();
+    let curve: Vec<[f32; 3]> =
+        values.chunks_exact(27).map(|picture| std::array::from_fn(|c| perceived(picture[12 + c]))).collect();
     let count = curve.len();
     let squares = (0..count).flat_map(|p| {
         let at: [[f32; 3]; 5] = std::array::from_fn(|k| curve[(p + k) % count]);

@@ -90,12 +90,7 @@ impl Spline {
         let along = along.clamp(0.0, 1.0);
         let before = 1.0 - along;
         let bend = |x: f64| ((x * x * x - x) * gap * gap / 6.0) as f32;
-        Position {
-            first,
-            second,
-            value: [before as f32, along as f32],
-            bend: [bend(before), bend(along)],
-        }
+        Position { first, second, value: [before as f32, along as f32], bend: [bend(before), bend(along)] }
     }
 
     /// The mean, over all turns, of the squared weights with which measured values enter an interpolated one: what
@@ -326,7 +321,9 @@ mod tests {
 
     #[test]
     fn a_spline_follows_a_smooth_periodic_curve() {
-        for (turns, tolerance) in [(uneven(40), 4e-3), ((0..40).map(|k| TAU * f64::from(k) / 40.0).collect(), 2e-3)] {
+        for (turns, tolerance) in
+            [(uneven(40), 4e-3), ((0..40).map(|k| TAU * f64::from(k) / 40.0).collect(), 2e-3)]
+        {
             let values = turns.iter().flat_map(|&turn| [wave(turn) as f32, 1.0]).collect();
             let spline = Spline::new(turns.clone());
             let curves = spline.curves(2, values);
@@ -351,7 +348,8 @@ mod tests {
 
     #[test]
     fn missing_pictures_are_bridged_around_the_turn() {
-        let mut values = vec![f32::NAN, f32::NAN, f32::NAN, 4.0, 4.0, 4.0, 1.0, 1.0, 1.0, f32::NAN, f32::NAN, f32::NAN];
+        let mut values =
+            vec![f32::NAN, f32::NAN, f32::NAN, 4.0, 4.0, 4.0, 1.0, 1.0, 1.0, f32::NAN, f32::NAN, f32::NAN];
         assert_eq!(bridge(&mut values, 3, 0), 0.5);
         assert_eq!(values, [3.0, 3.0, 3.0, 4.0, 4.0, 4.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0]);
     }

@@ -118,21 +118,31 @@ pub fn read(input: &Path) -> Result<Amc> {
     Ok(read_as(input, None)?.1)
 }
 
+/// Reads an AMC out of the bytes of any of the forms that are one file.
+///
+/// # Errors
+/// The bytes are none of them, or broken.
+pub fn parse(bytes: &[u8]) -> Result<Amc> {
+    Ok(parse_as(&Source::File(bytes.to_owned()), None)?.1)
+}
+
 fn read_as(input: &Path, kind: Option<Kind>) -> Result<(Kind, Amc)> {
     let source =
         if input.is_dir() { Source::Folder(input) } else { Source::File(file::read(input, MOST_BYTES)?) };
+    parse_as(&source, kind).map_err(|error| error.in_file(input))
+}
+
+fn parse_as(source: &Source<'_>, kind: Option<Kind>) -> Result<(Kind, Amc)> {
     let form = match kind {
         Some(kind) => form(kind),
-        None => FORMS.iter().find(|form| (form.is)(&source)).ok_or_else(|| {
-            let what = match source {
+        None => FORMS.iter().find(|form| (form.is)(source)).ok_or_else(|| {
+            Error::unsupported(match source {
                 Source::Folder(_) => "a folder without `slices.json`",
                 Source::File(_) => "neither an AMC nor a picture (PNG, JPEG, OpenEXR)",
-            };
-            Error::unsupported(what).in_file(input)
+            })
         })?,
     };
-    let amc = (form.read)(&source).map_err(|error| error.in_file(input))?;
-    Ok((form.kind, amc))
+    Ok((form.kind, (form.read)(source)?))
 }
 
 fn form(kind: Kind) -> &'static Form {

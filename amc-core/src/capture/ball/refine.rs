@@ -120,7 +120,8 @@ impl Profile {
         });
         let slope = |k: usize| -> f32 {
             let part = &self.samples[k - MARGIN..=k + MARGIN];
-            let of = |c: usize| part.iter().zip(kernel).map(|(sample, weight)| sample[c] * weight).sum::<f32>();
+            let of =
+                |c: usize| part.iter().zip(kernel).map(|(sample, weight)| sample[c] * weight).sum::<f32>();
             (0..3).map(of).map(|d| d * d).sum::<f32>().sqrt()
         };
         let last = self.samples.len() - MARGIN;
@@ -141,7 +142,9 @@ impl Profile {
             let count = range.len() as f32;
             perceived(range.map(|k| self.samples[k.min(self.samples.len() - 1)][c]).sum::<f32>() / count)
         };
-        (0..3).map(|c| (mean(k + 2..k + 6, c) - mean(k.saturating_sub(5)..k.saturating_sub(1), c)).abs()).fold(0.0, f32::max)
+        (0..3)
+            .map(|c| (mean(k + 2..k + 6, c) - mean(k.saturating_sub(5)..k.saturating_sub(1), c)).abs())
+            .fold(0.0, f32::max)
     }
 
     /// The offset of the edge of coverage, 1 inside and 0 outside: as long as the covered part of the ray is.

@@ -36,8 +36,7 @@ impl Gpu {
             Backend::Vulkan => Self::open(wgpu::Backends::VULKAN),
             Backend::Gl => Self::open(wgpu::Backends::GL),
             Backend::Auto => Self::open(wgpu::Backends::VULKAN).or_else(|vulkan| {
-                Self::open(wgpu::Backends::GL)
-                    .map_err(|opengl| Error::device(format!("{vulkan}; {opengl}")))
+                Self::open(wgpu::Backends::GL).map_err(|opengl| Error::device(format!("{vulkan}; {opengl}")))
             }),
         }
     }
@@ -53,14 +52,13 @@ impl Gpu {
         let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
         descriptor.backends = backends;
         let instance = wgpu::Instance::new(descriptor);
-        let adapter =
-            pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
-                .map_err(|error| {
-                    Error::device(format!(
-                        "there is no {interface} adapter; install a graphics driver (in software: Mesa)"
-                    ))
-                    .because(error)
-                })?;
+        let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
+            .map_err(|error| {
+            Error::device(format!(
+                "there is no {interface} adapter; install a graphics driver (in software: Mesa)"
+            ))
+            .because(error)
+        })?;
         let limits = wgpu::Limits {
             max_buffer_size: adapter.limits().max_buffer_size,
             ..wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits())

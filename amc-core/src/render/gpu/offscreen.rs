@@ -178,7 +178,8 @@ impl Offscreen {
 
 /// The content of a buffer, once the device is done with it.
 fn read(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<wgpu::BufferView> {
-    let failed = |error: &dyn std::fmt::Display| Error::device(format!("the picture cannot be read: {error}"));
+    let failed =
+        |error: &dyn std::fmt::Display| Error::device(format!("the picture cannot be read: {error}"));
     let (send, receive) = std::sync::mpsc::channel();
     buffer.map_async(wgpu::MapMode::Read, .., move |mapped| {
         // The receiver is gone only where the wait below has failed already.
