@@ -50,7 +50,7 @@ impl LinearTable {
     /// Fills all texels off the unit disc from the disc's rim, so that filtering at a silhouette stays inside: each gets
     /// the colour of the rim point on its radius, found from the texels on the disc nearby.
     pub fn fill_off_disc(&mut self) {
-        let sources = rim_sources(self.size);
+        let sources = rim_sources(self.size, &self.size.disc());
         self.texels.par_chunks_mut(self.size.slice_texels()).for_each(|slice| {
             for source in &sources {
                 slice[source.texel] = source.colour(slice);
@@ -124,15 +124,18 @@ fn neighbour_mean(slice: &[[f32; 4]], known: &[bool], side: usize, k: usize) -> 
     (weights > 0.0).then(|| [sum[0] / weights, sum[1] / weights, sum[2] / weights, FILLED])
 }
 
-/// What a texel off the disc is made of: texels of the same slice, on the disc, and their coefficients.
-struct RimSource {
-    texel: usize,
-    taps: Vec<(usize, f32)>,
+/// What an unknown texel near the rim is made of: known texels of the same slice, and their coefficients.
+#[derive(Debug)]
+pub(crate) struct RimSource {
+    /// The unknown texel's place in a slice.
+    pub(crate) texel: usize,
+    /// The known ones' places, and their coefficients, which add up to 1; some may be below 0.
+    pub(crate) taps: Vec<(usize, f32)>,
 }
 
 impl RimSource {
-    /// The sum of the taps, kept within the tapped colours' range widened by half of it, and from going below 0.
-    fn colour(&self, slice: &[[f32; 4]]) -> [f32; 4] {
+    /// The sum of the taps, kept within three times the tapped colours' range, and from going below 0.
+    pub(crate) fn colour(&self, slice: &[[f32; 4]]) -> [f32; 4] {
         let mut colour = [0.0, 0.0, 0.0, FILLED];
         for (c, value) in colour[..3].iter_mut().enumerate() {
             let (mut sum, mut low, mut high) = (0.0f32, f32::INFINITY, f32::NEG_INFINITY);
@@ -142,41 +145,44 @@ impl RimSource {
                 low = low.min(tapped);
                 high = high.max(tapped);
             }
-            let room = (high - low) / 2.0;
+            let room = high - low;
             *value = sum.clamp(low - room, high + room).max(0.0);
         }
         colour
     }
 }
 
-fn rim_sources(size: TableSize) -> Vec<RimSource> {
-    let side = size.side();
-    let texels = (0..side).flat_map(|j| (0..side).map(move |i| (i, j)));
-    texels
-        .filter(|&(i, j)| !size.is_on_disc(i, j))
-        .map(|(i, j)| {
-            let rim = size.normal_xy(i, j).normalize_or_zero().as_dvec2();
-            RimSource { texel: (j * side + i) as usize, taps: rim_taps(size, rim) }
+/// What each texel that is not `known` (row by row) is made of, as far as there are known ones within four texels of
+/// it, or of the rim point on its radius where it lies off the disc.
+pub(crate) fn rim_sources(size: TableSize, known: &[bool]) -> Vec<RimSource> {
+    let side = size.side() as usize;
+    let unknown = (0..known.len()).filter(|&k| !known[k]);
+    unknown
+        .map(|k| {
+            let xy = size.normal_xy((k % side) as u32, (k / side) as u32).as_dvec2();
+            RimSource { texel: k, taps: rim_taps(size, known, xy / xy.length().max(1.0)) }
         })
         .filter(|source| !source.taps.is_empty())
         .collect()
 }
 
-/// A texel on the disc near a rim point.
+/// A known texel near a point of the disc.
 struct Near {
     index: usize,
     weight: f64,
-    /// 1, its `n_z`, and its offset along the rim in texels: what the fit is linear in.
+    /// 1, by how much its `n_z` differs from the point's, and its offset along the rim in texels: what the fit is
+    /// linear in.
     terms: DVec3,
 }
 
-/// The coefficients that give the colour at a rim point. Towards the rim a reflectance is smooth in `n_z`, not in the
-/// radius, so a weighted least-squares fit, linear in `n_z` and along the rim, of the nearby texels is read at `n_z = 0`.
-fn rim_taps(size: TableSize, rim: DVec2) -> Vec<(usize, f32)> {
+/// The coefficients that give the colour at a point at or near the rim. Towards the rim a reflectance is smooth in
+/// `n_z`, not in the radius, so a weighted least-squares fit to the known texels nearby, linear in `n_z` and along the
+/// rim, is read at the point's own `n_z`.
+fn rim_taps(size: TableSize, known: &[bool], xy: DVec2) -> Vec<(usize, f32)> {
     let mut near = Vec::new();
     // Two texels around hold enough, but for tables of a few texels in all.
     for radius in [2.0, 3.0, 4.0] {
-        near = nearby(size, rim, radius);
+        near = nearby(size, known, xy, radius);
         if near.len() >= 6 {
             break;
         }
@@ -191,9 +197,10 @@ fn rim_taps(size: TableSize, rim: DVec2) -> Vec<(usize, f32)> {
     near.iter().map(|texel| (texel.index, (texel.weight * row.dot(texel.terms)) as f32)).collect()
 }
 
-fn nearby(size: TableSize, rim: DVec2, radius: f64) -> Vec<Near> {
+fn nearby(size: TableSize, known: &[bool], xy: DVec2, radius: f64) -> Vec<Near> {
     let side = f64::from(size.side());
-    let at = (rim + 1.0) / 2.0 * side - 0.5;
+    let at = (xy + 1.0) / 2.0 * side - 0.5;
+    let along_rim = xy.normalize_or_zero().perp();
     let range = |x: f64| {
         let bounded = |x: f64| x.clamp(0.0, side - 1.0) as u32;
         bounded((x - radius).ceil())..=bounded((x + radius).floor())
@@ -201,16 +208,21 @@ fn nearby(size: TableSize, rim: DVec2, radius: f64) -> Vec<Near> {
     let mut near = Vec::new();
     for j in range(at.y) {
         for i in range(at.x) {
+            let index = (j * size.side() + i) as usize;
             let offset = DVec2::new(f64::from(i), f64::from(j)) - at;
             let share = 1.0 - offset.length_squared() / (radius * radius);
-            if share > 0.0 && size.is_on_disc(i, j) {
-                let n_z = (1.0 - f64::from(size.normal_xy(i, j).length_squared())).max(0.0).sqrt();
-                let terms = DVec3::new(1.0, n_z, offset.dot(rim.perp()));
-                near.push(Near { index: (j * size.side() + i) as usize, weight: share * share, terms });
+            if share > 0.0 && known[index] {
+                let further_in = n_z(size.normal_xy(i, j).as_dvec2()) - n_z(xy);
+                let terms = DVec3::new(1.0, further_in, offset.dot(along_rim));
+                near.push(Near { index, weight: share * share, terms });
             }
         }
     }
     near
+}
+
+fn n_z(xy: DVec2) -> f64 {
+    (1.0 - xy.length_squared()).max(0.0).sqrt()
 }
 
 #[cfg(test)]
@@ -259,6 +271,27 @@ mod tests {
         for (a, b) in filled.texels.iter().zip(&truth.texels) {
             assert!((a[0] - b[0]).abs() < 0.04 && (a[1] - b[1]).abs() < 0.04, "{a:?} {b:?}");
         }
+    }
+
+    #[test]
+    fn the_rim_is_found_from_what_is_smooth_in_n_z() {
+        // Linear in n_z and around the disc: as steep as can be in the radius. The last half texel before the
+        // rim is unknown too.
+        let size = TableSize::new(64, 1).unwrap();
+        let value = |xy: DVec2| 1.0 + n_z(xy) + 0.2 * xy.normalize_or_zero().x;
+        let texels = (0..64u32 * 64).map(|k| size.normal_xy(k % 64, k / 64).as_dvec2());
+        let known: Vec<bool> = texels.clone().map(|xy| xy.length() < 1.0 - 1.0 / 64.0).collect();
+        let slice: Vec<[f32; 4]> = texels.clone().map(|xy| [value(xy) as f32, 0.0, 0.0, 1.0]).collect();
+        let sources = rim_sources(size, &known);
+        let mut checked = 0;
+        for (source, xy) in sources.iter().map(|source| (source, texels.clone().nth(source.texel).unwrap())) {
+            let expected = value(xy / xy.length().max(1.0));
+            // The nearest known texels are up to 0.25 off; what is left is that colours may not leave thrice their range.
+            assert!((f64::from(source.colour(&slice)[0]) - expected).abs() < 0.08, "{xy}");
+            checked += 1;
+        }
+        // All of the square outside of the known disc.
+        assert_eq!(checked, known.iter().filter(|known| !**known).count());
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! AMCs from and to other forms: a slice atlas, a folder of slices, an ordinary MatCap.
 //!
-//! A form is one file here and one line in [`FORMS`].
+//! A form is one file here and one line in `FORMS`.
 
 mod atlas;
 mod folder;

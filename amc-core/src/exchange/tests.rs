@@ -10,8 +10,9 @@ fn amc(format: TexelFormat) -> Amc {
     let size = TableSize::new(5, 7).unwrap();
     let texels = match format {
         TexelFormat::Srgb8 => {
-            let texel =
-                |k: usize| [k as u8, (k * 3) as u8, (k * 5) as u8, if k % 2 == 0 { 255 } else { 128 }];
+            let texel = |k: usize| {
+                [k as u8, (k * 3) as u8, (k * 5) as u8, if k.is_multiple_of(2) { 255 } else { 128 }]
+            };
             Texels::Srgb8((0..size.texels()).map(texel).collect())
         }
         TexelFormat::Half => {

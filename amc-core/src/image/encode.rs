@@ -12,10 +12,10 @@ use super::Picture;
 use crate::color::srgb8_from_linear;
 use crate::{Error, Result, file};
 
-/// Saves a picture as [`png`] encodes it; the old or the new file is whole at every instant.
+/// Saves a picture as [`png()`] encodes it; the old or the new file is whole at every instant.
 ///
 /// # Errors
-/// As [`png`], or the file cannot be written; the error names the file.
+/// As [`png()`], or the file cannot be written; the error names the file.
 pub fn write_png(picture: &Picture, path: &Path, text: &[(&str, &str)]) -> Result<()> {
     let bytes = png(picture, text).map_err(|error| error.in_file(path))?;
     file::save_bytes(path, &bytes)
@@ -62,10 +62,10 @@ pub(crate) fn png_of_pixels(
     Ok(bytes)
 }
 
-/// Saves a picture as [`exr`] encodes it; the old or the new file is whole at every instant.
+/// Saves a picture as [`exr()`] encodes it; the old or the new file is whole at every instant.
 ///
 /// # Errors
-/// As [`exr`], or the file cannot be written; the error names the file.
+/// As [`exr()`], or the file cannot be written; the error names the file.
 pub fn write_exr(picture: &Picture, path: &Path) -> Result<()> {
     let bytes = exr(picture).map_err(|error| error.in_file(path))?;
     file::save_bytes(path, &bytes)

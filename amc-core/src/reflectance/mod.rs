@@ -1,7 +1,7 @@
 //! Reflectances: how much light a cloth sends to the viewer, for light from any direction.
 //!
 //! A description is JSON: `{"version": 1, "model": "line", "name": .., "notes": .., "parameters": {..}, "lighting": {..}}`.
-//! A model is one file here, with its parameters' type, and one line in [`MODELS`].
+//! A model is one file here, with its parameters' type, and one line in `MODELS`.
 
 mod bundled;
 mod lights;

@@ -21,10 +21,7 @@ impl Amc {
         let packed = zstd::bulk::compress(texels, LEVEL)
             .map_err(|source| Error::io("cannot pack the texels", source))?;
         let packed = is_justified(packed.len() as u64, texels.len() as u64).then_some(packed);
-        let (descriptor, type_size) = self.descriptor()?;
-        let scheme = packed.as_ref().map(|_| SupercompressionScheme::Zstandard);
-        let level = packed.as_deref().unwrap_or(texels);
-        self.assemble(&descriptor, type_size, &self.key_values()?, scheme, level)
+        self.assemble(packed.as_deref())
     }
 
     /// The data format descriptor with its total size before it, and the size of the type.
@@ -59,20 +56,18 @@ impl Amc {
         Ok(bytes)
     }
 
-    fn assemble(
-        &self,
-        descriptor: &[u8],
-        type_size: u32,
-        key_values: &[u8],
-        scheme: Option<SupercompressionScheme>,
-        level: &[u8],
-    ) -> Result<Vec<u8>> {
+    /// The file around the packed texels, or else around the texels as they are.
+    pub(super) fn assemble(&self, packed: Option<&[u8]>) -> Result<Vec<u8>> {
         let too_large = |_| Error::too_large("the metadata is larger than 4 GiB");
+        let texels = self.texels().as_bytes();
+        let level = packed.unwrap_or(texels);
+        let (descriptor, type_size) = self.descriptor()?;
+        let key_values = self.key_values()?;
         let descriptor_at = Header::LENGTH + LevelIndex::LENGTH;
         let key_values_at = descriptor_at + descriptor.len();
-        let unpadded = key_values_at + key_values.len();
         // A level that is not packed starts at a multiple of its texel (and of 4); a packed one anywhere.
-        let level_at = if scheme.is_some() { unpadded } else { unpadded.next_multiple_of(8) };
+        let alignment = if packed.is_some() { 1 } else { self.format().bytes() };
+        let level_at = (key_values_at + key_values.len()).next_multiple_of(alignment);
         let header = Header {
             format: Some(self.format().ktx2()),
             type_size,
@@ -82,7 +77,7 @@ impl Amc {
             layer_count: 0,
             face_count: 1,
             level_count: 1,
-            supercompression_scheme: scheme,
+            supercompression_scheme: packed.map(|_| SupercompressionScheme::Zstandard),
             index: Index {
                 dfd_byte_offset: descriptor_at as u32,
                 dfd_byte_length: descriptor.len() as u32,
@@ -95,7 +90,7 @@ impl Amc {
         let index = LevelIndex {
             byte_offset: level_at as u64,
             byte_length: level.len() as u64,
-            uncompressed_byte_length: self.texels().as_bytes().len() as u64,
+            uncompressed_byte_length: texels.len() as u64,
         };
         let mut bytes = Vec::with_capacity(level_at + level.len());
         bytes.extend(header.as_bytes());
