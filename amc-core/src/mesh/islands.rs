@@ -122,8 +122,7 @@ impl Pieces {
 /// Only pieces of one part whose boxes meet can share a vertex, and only vertices of those are compared.
 fn join_equal(positions: &[Vec3], uvs: &[Vec2], pieces: &Pieces) -> Option<Vec<u32>> {
     let count = pieces.parts.len();
-    let suspect =
-        if count > PIECES_COMPARED { vec![true; count] } else { meeting_pieces(positions, uvs, pieces) };
+    let suspect = if count > PIECES_COMPARED { vec![true; count] } else { meeting_pieces(positions, uvs, pieces) };
     let compared: Vec<u32> = (0..positions.len() as u32)
         .filter(|&vertex| suspect.get(pieces.of_vertex[vertex as usize] as usize) == Some(&true))
         .collect();
@@ -215,9 +214,7 @@ fn part_pinches(triangles: &mut Cow<'_, [[u32; 3]]>, count: usize) -> Option<usi
                 (next - 1) as u32
             });
             if number != at_vertex[0].0 {
-                for corner in
-                    triangles.to_mut()[t as usize].iter_mut().filter(|corner| **corner == at_vertex[0].0)
-                {
+                for corner in triangles.to_mut()[t as usize].iter_mut().filter(|corner| **corner == at_vertex[0].0) {
                     *corner = number;
                 }
             }

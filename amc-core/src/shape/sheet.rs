@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
 use super::grid::{self, Point};
 use crate::mesh::Mesh;
@@ -11,6 +11,8 @@ use crate::mesh::Mesh;
 const WIDTH: f64 = 2.1;
 /// See [`WIDTH`].
 const HEIGHT: f64 = 1.7;
+/// How far its upper edge leans towards the viewer, radians: seen from a little above, the hem shows the folds.
+const LEAN: f64 = 0.3;
 /// Cells along the width and the height: 20,160 triangles.
 const CELLS: [u32; 2] = [140, 72];
 /// Steps of the sum that measures a row's length.
@@ -21,14 +23,15 @@ const STEPS: usize = 2048;
 pub(super) fn sheet() -> Mesh {
     let rows: Vec<Row> =
         (0..=CELLS[1]).map(|row| Row::new((f64::from(row) / f64::from(CELLS[1]) - 0.5) * HEIGHT)).collect();
+    let lean = DQuat::from_rotation_x(LEAN);
     grid::mesh("sheet", CELLS, [false; 2], |s, t| {
         let u = (s - 0.5) * WIDTH;
         let row = &rows[((t * f64::from(CELLS[1])).round() as usize).min(rows.len() - 1)];
         let x = row.x(u);
         let (z, slope) = surface(x, row.y);
         Point {
-            position: DVec3::new(x, row.y, z).as_vec3(),
-            normal: DVec3::new(-slope.x, -slope.y, 1.0).normalize().as_vec3(),
+            position: (lean * DVec3::new(x, row.y, z)).as_vec3(),
+            normal: (lean * DVec3::new(-slope.x, -slope.y, 1.0).normalize()).as_vec3(),
             uv: DVec2::new(u, row.y).as_vec2(),
         }
     })
