@@ -45,12 +45,14 @@ fn main() -> amc_core::Result<()> {
         device.create_texture(&texture).create_view(&wgpu::TextureViewDescriptor::default())
     });
     let ops = wgpu::Operations::default();
-    let color = wgpu::RenderPassColorAttachment { view: &color, depth_slice: None, resolve_target: None, ops };
+    let color =
+        wgpu::RenderPassColorAttachment { view: &color, depth_slice: None, resolve_target: None, ops };
     let depth_ops = Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store });
     let depth = wgpu::RenderPassDepthStencilAttachment { view: &depth, depth_ops, stencil_ops: None };
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let (color_attachments, depth_stencil_attachment) = (&[Some(color)][..], Some(depth));
-    let pass = wgpu::RenderPassDescriptor { color_attachments, depth_stencil_attachment, ..Default::default() };
+    let pass =
+        wgpu::RenderPassDescriptor { color_attachments, depth_stencil_attachment, ..Default::default() };
     frame.draw(&mut encoder.begin_render_pass(&pass));
     queue.submit([encoder.finish()]);
     Ok(())

@@ -4,6 +4,8 @@
 //! medians and the ratio per table format; exits 1 when the ratio of 8-bit sRGB is over the bar. `--gl` measures on
 //! OpenGL instead.
 
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a benchmark says what it measured")]
+
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -58,7 +60,8 @@ fn main() -> ExitCode {
 /// Prints the medians of both frames; their ratio.
 fn compare(gpu: &Gpu, samples: u32, format: &str, texels: &Texels, cyclic: Cyclic) -> f64 {
     let size = TableSize::new(SIDE, SLICES).expect("a size");
-    let amc = Amc::new(size, texels.clone(), Symmetry::Two, Azimuth::Transported, Frame::Half).expect("a table");
+    let amc =
+        Amc::new(size, texels.clone(), Symmetry::Two, Azimuth::Transported, Frame::Half).expect("a table");
     let ball = Arc::new(slice_as_picture(&amc));
     let drawing = sheet(Arc::new(amc));
     let mut renderer = Renderer::new(&gpu.device, &gpu.queue);
@@ -82,7 +85,7 @@ fn compare(gpu: &Gpu, samples: u32, format: &str, texels: &Texels, cyclic: Cycli
     });
     let ratio = amc / matcap;
     println!(
-        "{samples} samples, {format}, {cyclic:?}: AMC {amc:.2} ms, MatCap {matcap:.2} ms, ratio {ratio:.2}"
+        "samples {samples}, {format}, {cyclic:?}: AMC {amc:.2} ms, MatCap {matcap:.2} ms, ratio {ratio:.2}"
     );
     ratio
 }
@@ -153,7 +156,8 @@ fn sheet(fabric: Arc<Amc>) -> Drawing {
 
 /// A smooth table with all values in use.
 fn srgb8() -> Texels {
-    let value = |x: u32, y: u32, s: u32| (127.5 + 127.0 * (0.05 * (x + 2 * y) as f32 + 0.1 * s as f32).sin()) as u8;
+    let value =
+        |x: u32, y: u32, s: u32| (127.5 + 127.0 * (0.05 * (x + 2 * y) as f32 + 0.1 * s as f32).sin()) as u8;
     let texel = |k: u32| {
         let (i, j, s) = (k % SIDE, k / SIDE % SIDE, k / (SIDE * SIDE));
         [value(i, j, s), value(j, i, s), value(i, i, j), 255]
@@ -163,7 +167,8 @@ fn srgb8() -> Texels {
 
 fn half(texels: &Texels) -> Texels {
     let size = TableSize::new(SIDE, SLICES).expect("a size");
-    let amc = Amc::new(size, texels.clone(), Symmetry::Two, Azimuth::Transported, Frame::Half).expect("a table");
+    let amc =
+        Amc::new(size, texels.clone(), Symmetry::Two, Azimuth::Transported, Frame::Half).expect("a table");
     let mut linear = amc.to_linear();
     // Off the 8-bit values, so that the MatCap is kept in half floats too.
     linear.texels.iter_mut().for_each(|texel| *texel = texel.map(|value| value * 0.97 + 0.011));

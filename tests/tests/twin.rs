@@ -72,8 +72,7 @@ impl Twins {
 
     fn compare(&mut self, what: &str, drawing: &Drawing, view: &View, shading: &Shading) {
         let reference = cpu::render(drawing, view, shading, &Progress::none()).unwrap();
-        let offscreen =
-            Offscreen::new(&self.gpu.device, view.width, view.height, shading.samples).unwrap();
+        let offscreen = Offscreen::new(&self.gpu.device, view.width, view.height, shading.samples).unwrap();
         let mut scene = self.renderer.prepare(drawing).unwrap();
         let eye = self.renderer.eye();
         let frame = self.renderer.draw_data(&mut scene, &eye, view, shading, offscreen.target()).unwrap();

@@ -60,9 +60,7 @@ impl Composition {
 /// A shader that is not there, imports that run in a circle or nest deeper than 64, or a text of more than 4 MiB; the
 /// error names the file and line of the import.
 pub fn compose(sources: &Sources, name: &str) -> Result<Composition> {
-    let source = sources
-        .read(name)?
-        .ok_or_else(|| Error::invalid(format!("there is no shader {name:?}")))?;
+    let source = sources.read(name)?.ok_or_else(|| Error::invalid(format!("there is no shader {name:?}")))?;
     let mut composer = Composer {
         sources,
         open: Vec::new(),

@@ -64,7 +64,10 @@ fn faulty_imports_are_reported_where_they_stand() {
     let sources = Sources::folder(folder.path());
     let says = |name: &str| compose(&sources, name).unwrap_err().to_string().replace("\\", "/");
     let circle = says("a");
-    assert!(circle.contains("c.wgsl: line 3: imports run in a circle: a imports b imports c imports a"), "{circle}");
+    assert!(
+        circle.contains("c.wgsl: line 3: imports run in a circle: a imports b imports c imports a"),
+        "{circle}"
+    );
     let missing = says("missing");
     assert!(missing.contains("missing.wgsl: line 2: there is no shader \"nowhere\""), "{missing}");
     assert!(says("outside").contains("outside.wgsl: line 1: \"../b\" is no name"));

@@ -81,9 +81,7 @@ fn create(
     };
     queue.write_texture(texture.as_image_copy(), bytes, layout, size);
     let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-    let resources = [
-        wgpu::BindingResource::TextureView(&view),
-        wgpu::BindingResource::Sampler(&bindings.ball_sampler),
-    ];
+    let resources =
+        [wgpu::BindingResource::TextureView(&view), wgpu::BindingResource::Sampler(&bindings.ball_sampler)];
     bind_group(device, "ball", &bindings.ball, &resources)
 }

@@ -171,14 +171,18 @@ impl Offscreen {
             buffer
         })?;
         let aligned = read(gpu, &buffer)?;
-        let rows = aligned.chunks_exact(aligned_row_bytes as usize);
-        Ok(rows.flat_map(|row| row.iter().take(row_bytes as usize)).copied().collect())
+        let mut bytes = Vec::with_capacity(row_bytes as usize * self.height as usize);
+        for row in aligned.chunks_exact(aligned_row_bytes as usize) {
+            bytes.extend_from_slice(&row[..row_bytes as usize]);
+        }
+        Ok(bytes)
     }
 }
 
 /// The content of a buffer, once the device is done with it.
 fn read(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<wgpu::BufferView> {
-    let failed = |error: &dyn std::fmt::Display| Error::device(format!("the picture cannot be read: {error}"));
+    let failed =
+        |error: &dyn std::fmt::Display| Error::device(format!("the picture cannot be read: {error}"));
     let (send, receive) = std::sync::mpsc::channel();
     buffer.map_async(wgpu::MapMode::Read, .., move |mapped| {
         // The receiver is gone only where the wait below has failed already.

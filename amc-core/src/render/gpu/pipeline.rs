@@ -101,7 +101,10 @@ impl Pipelines {
             return Ok(pipeline.clone());
         }
         if !matches!(key.target.samples, 1 | 4) {
-            return Err(Error::invalid(format!("{} samples per pixel; 1 or 4 are possible", key.target.samples)));
+            return Err(Error::invalid(format!(
+                "{} samples per pixel; 1 or 4 are possible",
+                key.target.samples
+            )));
         }
         let module = match self.modules.entry(key.mode.shader) {
             std::collections::hash_map::Entry::Occupied(known) => known.into_mut(),
@@ -138,11 +141,8 @@ fn create(
     constants.retain(|(name, _)| module.overrides.iter().any(|known| known == name));
     let compilation_options =
         wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-    let color = wgpu::ColorTargetState {
-        format: key.target.color,
-        blend: None,
-        write_mask: wgpu::ColorWrites::ALL,
-    };
+    let color =
+        wgpu::ColorTargetState { format: key.target.color, blend: None, write_mask: wgpu::ColorWrites::ALL };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(key.mode.shader),
         layout: Some(&bindings.pipeline_layout(device, key.mode.looks_up)),

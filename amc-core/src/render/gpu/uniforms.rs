@@ -37,11 +37,7 @@ pub(super) struct FabricUniforms {
 
 impl FabricUniforms {
     pub(super) fn new(amc: &Amc) -> Self {
-        Self {
-            symmetry: amc.symmetry.order() as f32,
-            slices: amc.size().slices() as f32,
-            padding: [0.0; 2],
-        }
+        Self { symmetry: amc.symmetry.order() as f32, slices: amc.size().slices() as f32, padding: [0.0; 2] }
     }
 }
 
@@ -72,7 +68,8 @@ mod tests {
     fn layout(shader: &str, name: &str) -> (usize, Vec<(String, usize)>) {
         let checked = validate(&Sources::embedded(), shader).unwrap();
         let layout = checked.struct_layout(name).unwrap();
-        let members = layout.members.into_iter().map(|member| (member.name, member.offset as usize)).collect();
+        let members =
+            layout.members.into_iter().map(|member| (member.name, member.offset as usize)).collect();
         (layout.size as usize, members)
     }
 
