@@ -65,7 +65,8 @@ pub fn save_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
 /// # Errors
 /// The operating system refused; the error names the folder.
 pub fn make_folder(folder: &Path) -> Result<()> {
-    std::fs::create_dir_all(folder).map_err(|source| Error::io("cannot make the folder", source).in_file(folder))
+    std::fs::create_dir_all(folder)
+        .map_err(|source| Error::io("cannot make the folder", source).in_file(folder))
 }
 
 /// A name for what was made from `content`: 32 hexadecimal digits, the same for the same content.

@@ -4,7 +4,7 @@ mod fabric;
 mod garment;
 mod look;
 
-pub(crate) use fabric::{Fabrics, bundled_fabric};
+pub(crate) use fabric::Fabrics;
 pub(crate) use garment::load_garment;
 pub(crate) use look::{PanelLook, directions, panel_looks};
 
@@ -18,8 +18,8 @@ use crate::storage::cache_folder;
 fn vertex_occlusion(garment: &Garment, progress: &Progress<'_>) -> Result<Vec<f32>> {
     let options = occlusion::Options::default();
     match cache_folder() {
-        Some(folder) => occlusion::cached(garment, &options, &folder.join("occlusion"), progress),
-        None => occlusion::compute(garment, &options, progress),
+        Some(folder) => occlusion::cached(garment, options, &folder.join("occlusion"), progress),
+        None => occlusion::compute(garment, options, progress),
     }
 }
 

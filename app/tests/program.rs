@@ -49,7 +49,7 @@ fn without_a_command_it_makes_a_picture_and_says_where() {
     let folder = scratch();
     let said = done(folder.path(), &[]);
     assert!(said.contains("amc-studio.png"), "{said}");
-    let picture = amc_core::image::read(&folder.path().join("amc-studio.png")).unwrap();
+    let picture = amc_core::image::decode::read(&folder.path().join("amc-studio.png")).unwrap();
     let covered = picture.pixels().iter().filter(|pixel| pixel[3] > 0.5).count();
     assert!(covered > picture.pixels().len() / 5, "{covered} pixels of cloth");
 }
@@ -72,11 +72,12 @@ fn from_pictures_of_a_ball_to_a_garment_in_that_cloth() {
     assert_eq!((amc["size"].as_u64(), amc["symmetry"].as_u64()), (Some(64), Some(2)));
     assert_eq!((amc["azimuth"].as_str(), amc["frame"].as_str()), (Some("transported"), Some("half")));
 
-    let common = ["render", "shape:torus", "--amc", "cloth.amc.ktx2", "--size", "200x160", "--occlusion", "off"];
+    let common =
+        ["render", "shape:torus", "--amc", "cloth.amc.ktx2", "--size", "200x160", "--occlusion", "off"];
     done(here, &[&common[..], &["-o", "gpu.png"]].concat());
     done(here, &[&common[..], &["-o", "cpu.png", "--renderer", "cpu"]].concat());
     done(here, &[&common[..], &["-o", "turned.exr", "--panel", "all,angle=90,source=yarn"]].concat());
-    let read = |name: &str| amc_core::image::read(&here.join(name)).unwrap();
+    let read = |name: &str| amc_core::image::decode::read(&here.join(name)).unwrap();
     let psnr = |a: &str, b: &str| amc_core::image::compare::psnr_srgb(&read(a), &read(b)).unwrap();
     assert!(psnr("gpu.png", "cpu.png") > 45.0, "two renderers, one picture: {}", psnr("gpu.png", "cpu.png"));
     assert!(psnr("gpu.png", "turned.exr") < 30.0, "a turned cloth looks otherwise");
@@ -94,9 +95,26 @@ fn tables_are_baked_converted_and_come_back() {
     assert_eq!(table("satin.amc.ktx2").texels(), table("again.amc.ktx2").texels());
     assert_eq!(table("satin.amc.ktx2").symmetry, table("again.amc.ktx2").symmetry);
     done(here, &["convert", "satin.amc.ktx2", "mean.matcap.png"]);
-    done(here, &["render", "shape:sphere", "-o", "m.png", "--shading", "matcap=mean.matcap.png", "--size", "64x64"]);
-    done(here, &["render", "shape:sphere", "-o", "i.png", "--amc", "satin.amc.ktx2", "--shading", "isotropic", "--size", "64x64"]);
-    let read = |name: &str| amc_core::image::read(&here.join(name)).unwrap();
+    done(
+        here,
+        &["render", "shape:sphere", "-o", "m.png", "--shading", "matcap=mean.matcap.png", "--size", "64x64"],
+    );
+    done(
+        here,
+        &[
+            "render",
+            "shape:sphere",
+            "-o",
+            "i.png",
+            "--amc",
+            "satin.amc.ktx2",
+            "--shading",
+            "isotropic",
+            "--size",
+            "64x64",
+        ],
+    );
+    let read = |name: &str| amc_core::image::decode::read(&here.join(name)).unwrap();
     let psnr = amc_core::image::compare::psnr_srgb(&read("m.png"), &read("i.png")).unwrap();
     assert!(psnr > 40.0, "the isotropic MatCap is the same by file: {psnr}");
 }
@@ -113,7 +131,10 @@ fn directions_are_exported_and_panels_listed() {
     }
     let id = panel["id"].as_str().unwrap();
     for suffix in ["glb", "obj", "json"] {
-        done(here, &["tangents", "shape:sheet", "-o", &format!("t.{suffix}"), "--panel", &format!("{id},angle=45")]);
+        done(
+            here,
+            &["tangents", "shape:sheet", "-o", &format!("t.{suffix}"), "--panel", &format!("{id},angle=45")],
+        );
         assert!(here.join(format!("t.{suffix}")).metadata().unwrap().len() > 100);
     }
     let again = json(here, &["inspect", "t.glb"]);
@@ -175,7 +196,19 @@ fn bad_input_gives_one_line_that_names_file_and_reason() {
         (&["render", "shape:disc-radial", "-o", "a.png", "--camera", "camera.json"], "camera.json"),
         (&["render", "shape:disc-radial", "-o", "a.png", "--panel", "sleeve,angle=3"], "sleeve"),
         (&["bake", "reflectance.json", "-o", "a.amc.ktx2"], "gold leaf"),
-        (&["render", "shape:disc-radial", "-o", "nowhere/a.png", "--renderer", "cpu", "--occlusion", "off"], "nowhere"),
+        (
+            &[
+                "render",
+                "shape:disc-radial",
+                "-o",
+                "nowhere/a.png",
+                "--renderer",
+                "cpu",
+                "--occlusion",
+                "off",
+            ],
+            "nowhere",
+        ),
     ] {
         let message = refused(here, arguments, 1);
         assert!(message.contains(names), "{arguments:?}: {message}");
@@ -192,7 +225,7 @@ fn bad_pictures_give_one_line_each() {
         cloth.save_turn(&here.join(name), &three_lights(), 32, 8, 0.0).unwrap();
     };
     let save = |picture: &amc_core::image::Picture, name: &str| {
-        amc_core::image::encode::save_png(picture, &here.join(name), &[]).unwrap();
+        amc_core::image::encode::write_png(picture, &here.join(name), &[]).unwrap();
     };
     turn("broken");
     amc_core::file::save_bytes(&here.join("broken/0003.png"), b"\x89PNG\r\n\x1a\nnot a picture").unwrap();

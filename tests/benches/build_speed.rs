@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use amc_core::Progress;
 use amc_core::capture::{self, BuildOptions};
-use amc_core::image;
+use amc_core::image::decode;
 use glam::Vec3;
 use rayon::prelude::*;
 use studio_tests::materials::{Facets, three_lights};
@@ -33,12 +33,13 @@ fn main() -> ExitCode {
         decode_times.push(timed(|| {
             files.par_iter().for_each(|file| {
                 let bytes = std::fs::read(file).expect("a picture");
-                std::hint::black_box(image::decode(&bytes).expect("a picture"));
+                std::hint::black_box(decode::decode(&bytes).expect("a picture"));
             });
         }));
         build_times.push(timed(|| {
-            let built = capture::build(folder.path(), &BuildOptions::default(), &Progress::none()).expect("a table");
-            assert_eq!(built.report.symmetry, 2);
+            let built =
+                capture::build(folder.path(), &BuildOptions::default(), &Progress::none()).expect("a table");
+            assert_eq!(built.report.symmetry.order(), 2);
         }));
     }
     let (decode, build) = (median(&mut decode_times), median(&mut build_times));

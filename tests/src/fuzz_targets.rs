@@ -6,9 +6,9 @@ use std::path::Path;
 use amc_core::amc::Amc;
 use amc_core::capture::Session;
 use amc_core::mesh::{Garment, Mesh};
-use amc_core::reflectance::{Description, lights};
+use amc_core::reflectance::{self as reflectances, Lighting};
 use amc_core::render::Camera;
-use amc_core::{exchange, image, mesh};
+use amc_core::{exchange, image::decode, mesh};
 
 /// A fuzz target's name and what it does with the bytes.
 pub type Target = (&'static str, fn(&[u8]));
@@ -22,7 +22,7 @@ pub const TARGETS: [Target; 8] = [
     ("session", session),
     ("camera", camera),
     ("reflectance", reflectance),
-    ("atlas", atlas),
+    ("exchange", exchanged),
 ];
 
 /// AMC files; what is read is written and read again.
@@ -53,7 +53,8 @@ pub fn obj(bytes: &[u8]) {
 fn cut_into_panels(mesh: Mesh) {
     if let Ok(garment) = Garment::new(mesh) {
         let directions = vec![amc_core::direction::Direction::default(); garment.panels.len()];
-        let tangents = amc_core::direction::tangents(&garment, &directions).expect("a checked garment has directions");
+        let tangents =
+            amc_core::direction::tangents(&garment, &directions).expect("a checked garment has directions");
         for tangent in &tangents.vectors {
             assert!((tangent.length() - 1.0).abs() < 1e-3, "a tangent of length {}", tangent.length());
         }
@@ -62,7 +63,7 @@ fn cut_into_panels(mesh: Mesh) {
 
 /// JPEG, PNG and EXR, by their first bytes.
 pub fn picture(bytes: &[u8]) {
-    if let Ok(raster) = image::decode(bytes) {
+    if let Ok(raster) = decode::decode(bytes) {
         let picture = raster.to_picture();
         assert_eq!(picture.pixels().len(), picture.width() as usize * picture.height() as usize);
     }
@@ -70,8 +71,8 @@ pub fn picture(bytes: &[u8]) {
 
 /// `session.json`.
 pub fn session(bytes: &[u8]) {
-    if let Ok(session) = Session::from_json(bytes) {
-        assert!(session.pictures.iter().all(|picture| picture.angle.is_finite()));
+    if let Ok(session) = Session::parse(bytes) {
+        assert!(session.pictures.iter().all(|picture| picture.angle_deg.is_finite()));
     }
 }
 
@@ -82,13 +83,15 @@ pub fn camera(bytes: &[u8]) {
 
 /// Reflectances and lights.
 pub fn reflectance(bytes: &[u8]) {
-    drop(Description::from_json(bytes));
-    drop(lights::from_json(bytes));
+    if let Ok(text) = std::str::from_utf8(bytes) {
+        drop(reflectances::parse(text));
+        drop(Lighting::parse(text));
+    }
 }
 
-/// Slice atlases.
-pub fn atlas(bytes: &[u8]) {
-    drop(exchange::atlas::from_png(bytes));
+/// Whatever single file an AMC may come in: slice atlases, MatCaps.
+pub fn exchanged(bytes: &[u8]) {
+    drop(exchange::parse(bytes));
 }
 
 /// The folder of inputs that once failed, one folder per target.

@@ -40,7 +40,8 @@ impl Facets {
             } else {
                 let each = (0..self.directions).map(|k| {
                     let angle = std::f32::consts::TAU * k as f32 / self.directions as f32;
-                    let facet = n * self.lean.cos() + (t * angle.cos() + bitangent * angle.sin()) * self.lean.sin();
+                    let facet =
+                        n * self.lean.cos() + (t * angle.cos() + bitangent * angle.sin()) * self.lean.sin();
                     half.dot(facet).max(0.0).powi(self.exponent)
                 });
                 each.sum::<f32>() / self.directions as f32
@@ -63,7 +64,9 @@ impl Facets {
                 let mut sum = [0.0; 3];
                 let mut covered = 0;
                 for k in 0..GRID * GRID {
-                    let at = |pixel: u32, k: u32| (pixel as f32 + (k as f32 + 0.5) / GRID as f32) / side as f32 * 2.0 - 1.0;
+                    let at = |pixel: u32, k: u32| {
+                        (pixel as f32 + (k as f32 + 0.5) / GRID as f32) / side as f32 * 2.0 - 1.0
+                    };
                     let p = Vec2::new(at(x, k % GRID), -at(y, k / GRID));
                     if p.length_squared() >= 1.0 {
                         continue;
@@ -79,7 +82,8 @@ impl Facets {
                 }
                 let mean = sum.map(|value| value / covered.max(1) as f32);
                 let noisy = mean.map(|linear| {
-                    let encoded = amc_core::color::srgb_from_linear(linear) + random.gaussian() * noise / 255.0;
+                    let encoded =
+                        amc_core::color::srgb_from_linear(linear) + random.gaussian() * noise / 255.0;
                     amc_core::color::linear_from_srgb(encoded.clamp(0.0, 1.0))
                 });
                 pixels.push([noisy[0], noisy[1], noisy[2], covered as f32 / (GRID * GRID) as f32]);
@@ -93,7 +97,7 @@ impl Facets {
         for k in 0..count {
             let angle = std::f32::consts::TAU * k as f32 / count as f32;
             let picture = self.picture(lights, side, angle, noise, u64::from(k) + 1)?;
-            encode::save_png(&picture, &folder.join(format!("{k:04}.png")), &[])?;
+            encode::write_png(&picture, &folder.join(format!("{k:04}.png")), &[])?;
         }
         Ok(())
     }

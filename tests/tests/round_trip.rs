@@ -13,7 +13,7 @@ use amc_core::view_space::Azimuth;
 use studio_tests::materials::{Facets, three_lights};
 
 /// The bar for clean input, dB.
-const CLEAN: f32 = 40.0;
+const CLEAN: f64 = 40.0;
 
 #[test]
 fn a_sphere_turned_to_a_slice_angle_is_the_picture_at_that_angle() {

@@ -14,7 +14,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::amc::Amc;
+use crate::amc::{Amc, TableSize};
 use crate::{Error, Result, file};
 
 /// What a file or folder holds.
@@ -29,6 +29,21 @@ pub enum Kind {
     Slices,
     /// An ordinary MatCap: a picture of a ball.
     MatCap,
+}
+
+impl std::str::FromStr for Kind {
+    type Err = Error;
+
+    /// By its name on the command line: `amc`, `atlas`, `slices`, `matcap`.
+    fn from_str(name: &str) -> Result<Self> {
+        Ok(match name {
+            "amc" => Self::Amc,
+            "atlas" => Self::Atlas,
+            "slices" => Self::Slices,
+            "matcap" => Self::MatCap,
+            _ => return Err(Error::invalid(format!("{name:?} is none of amc, atlas, slices, matcap"))),
+        })
+    }
 }
 
 /// What is read and written, where names and contents do not say it.
@@ -74,7 +89,7 @@ struct Form {
 const FORMS: [Form; 4] = [ktx2::FORM, folder::FORM, atlas::FORM, matcap::FORM];
 
 /// Files larger than this are not read: a table of 2 GiB with room to spare.
-const MOST_BYTES: u64 = (2 << 30) + (64 << 20);
+const MOST_BYTES: u64 = TableSize::MOST_BYTES + (64 << 20);
 
 /// Converts `input` to `output`.
 ///
@@ -103,20 +118,31 @@ pub fn read(input: &Path) -> Result<Amc> {
     Ok(read_as(input, None)?.1)
 }
 
+/// Reads an AMC out of the bytes of any of the forms that are one file.
+///
+/// # Errors
+/// The bytes are none of them, or broken.
+pub fn parse(bytes: &[u8]) -> Result<Amc> {
+    Ok(parse_as(&Source::File(bytes.to_owned()), None)?.1)
+}
+
 fn read_as(input: &Path, kind: Option<Kind>) -> Result<(Kind, Amc)> {
-    let source = if input.is_dir() { Source::Folder(input) } else { Source::File(file::read(input, MOST_BYTES)?) };
+    let source =
+        if input.is_dir() { Source::Folder(input) } else { Source::File(file::read(input, MOST_BYTES)?) };
+    parse_as(&source, kind).map_err(|error| error.in_file(input))
+}
+
+fn parse_as(source: &Source<'_>, kind: Option<Kind>) -> Result<(Kind, Amc)> {
     let form = match kind {
         Some(kind) => form(kind),
-        None => FORMS.iter().find(|form| (form.is)(&source)).ok_or_else(|| {
-            let what = match source {
+        None => FORMS.iter().find(|form| (form.is)(source)).ok_or_else(|| {
+            Error::unsupported(match source {
                 Source::Folder(_) => "a folder without `slices.json`",
                 Source::File(_) => "neither an AMC nor a picture (PNG, JPEG, OpenEXR)",
-            };
-            Error::unsupported(what).in_file(input)
+            })
         })?,
     };
-    let amc = (form.read)(&source).map_err(|error| error.in_file(input))?;
-    Ok((form.kind, amc))
+    Ok((form.kind, (form.read)(source)?))
 }
 
 fn form(kind: Kind) -> &'static Form {
@@ -139,7 +165,8 @@ fn form_of_name(output: &Path) -> Result<&'static Form> {
     if output.extension().is_none() {
         return Ok(form(Kind::Slices));
     }
-    let known: Vec<String> = FORMS.iter().map(|form| format!("{}: {}", form.name, form.ends.join(" "))).collect();
+    let known: Vec<String> =
+        FORMS.iter().map(|form| format!("{}: {}", form.name, form.ends.join(" "))).collect();
     Err(Error::unsupported(format!(
         "the name does not say what to write ({}; no suffix: a folder of slices)",
         known.iter().filter(|line| !line.ends_with(": ")).cloned().collect::<Vec<_>>().join("; ")

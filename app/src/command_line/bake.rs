@@ -3,16 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use amc_core::bake::{self, BakeOptions};
-use amc_core::file;
-use amc_core::reflectance::{Description, lights};
+use amc_core::reflectance::{self, Lighting};
 
 use super::output::Output;
 use super::progress::with_progress;
 use super::values::{AzimuthChoice, FormatChoice, SymmetryChoice};
 use super::{Failure, Outcome};
-
-/// A description is a page of text.
-const DESCRIPTION_LIMIT: u64 = 1 << 20;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
@@ -25,11 +21,11 @@ pub(super) struct Arguments {
     #[arg(long)]
     lights: Option<PathBuf>,
     /// Columns, and rows, of the table.
-    #[arg(long, default_value_t = BakeOptions::default().size)]
+    #[arg(long, default_value_t = BakeOptions::default().side)]
     size: u32,
-    /// Slices of the table.
-    #[arg(long, default_value_t = BakeOptions::default().slices)]
-    slices: u32,
+    /// Slices of the table [default: 2 size / symmetry].
+    #[arg(long)]
+    slices: Option<u32>,
     /// auto (the reflectance's own), 1, 2, 3 or 4.
     #[arg(long, default_value = "auto")]
     symmetry: SymmetryChoice,
@@ -59,24 +55,23 @@ struct Baked<'a> {
 
 pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
     if let Some(file) = &arguments.lights
-        && file.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("exr") || suffix.eq_ignore_ascii_case("hdr"))
+        && file
+            .extension()
+            .is_some_and(|suffix| suffix.eq_ignore_ascii_case("exr") || suffix.eq_ignore_ascii_case("hdr"))
     {
         return Err(Failure::NotAvailable("lighting by an environment picture".to_owned()));
     }
-    let mut description = Description::from_json(&file::read(&arguments.reflectance, DESCRIPTION_LIMIT)?)
-        .map_err(|error| error.in_file(&arguments.reflectance))?;
-    if let Some(file) = &arguments.lights {
-        description.lights =
-            lights::from_json(&file::read(file, DESCRIPTION_LIMIT)?).map_err(|error| error.in_file(file))?;
-    }
+    let description = reflectance::read(&arguments.reflectance)?;
+    let lighting = arguments.lights.as_deref().map(Lighting::read).transpose()?;
     let options = BakeOptions {
-        size: arguments.size,
+        side: arguments.size,
         slices: arguments.slices,
         symmetry: arguments.symmetry.0,
         azimuth: arguments.azimuth.into(),
         format: arguments.format.into(),
         samples: arguments.samples,
         seed: arguments.seed,
+        lighting,
     };
     let amc = with_progress(|progress| {
         let amc = bake::bake(&description, &options, progress)?;

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-use amc_core::amc::{Frame, TexelFormat};
+use amc_core::amc::Frame;
 use amc_core::capture::{self, BuildOptions, Turn};
 use clap::ValueEnum;
 
 use super::output::Output;
 use super::progress::with_progress;
-use super::values::{AzimuthChoice, FieldOfView, FormatChoice, Sphere, SymmetryChoice, finite};
+use super::values::{AzimuthChoice, FieldOfView, FormatChoice, Sphere, SymmetryChoice};
 use super::{Failure, Outcome};
 
 #[derive(Debug, clap::Args)]
@@ -28,8 +28,8 @@ pub(super) struct Arguments {
     #[arg(long, default_value = "auto")]
     symmetry: SymmetryChoice,
     /// The largest dissimilarity (0 identical, about 1 unrelated) at which a symmetry is taken.
-    #[arg(long, value_parser = finite, default_value_t = BuildOptions::default().threshold)]
-    threshold: f32,
+    #[arg(long, default_value_t = BuildOptions::default().threshold)]
+    threshold: f64,
     /// What the third axis means.
     #[arg(long, value_enum, default_value = "transported")]
     azimuth: AzimuthChoice,
@@ -45,9 +45,9 @@ pub(super) struct Arguments {
     /// ortho, or the camera's horizontal field of view in degrees.
     #[arg(long, default_value = "ortho")]
     fov: FieldOfView,
-    /// Texels: 8-bit sRGB, or 16-bit float [default: by the pictures].
-    #[arg(long, value_enum)]
-    format: Option<FormatChoice>,
+    /// Texels: 8-bit sRGB, or 16-bit float.
+    #[arg(long, value_enum, default_value = "srgb8")]
+    format: FormatChoice,
     /// A mask of folds and pins (not available in this version).
     #[arg(long)]
     mask: Option<PathBuf>,
@@ -91,13 +91,13 @@ pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
         }),
         sphere: match arguments.sphere {
             Sphere::Auto => None,
-            Sphere::Given { x, y, radius } => Some((x, y, radius)),
+            Sphere::Given { x, y, radius } => Some((x.into(), y.into(), radius.into())),
         },
         horizontal_fov: match arguments.fov {
             FieldOfView::Orthographic => None,
-            FieldOfView::Degrees(degrees) => Some(degrees.to_radians()),
+            FieldOfView::Degrees(degrees) => Some(f64::from(degrees).to_radians()),
         },
-        format: arguments.format.map(TexelFormat::from),
+        format: arguments.format.into(),
     };
     let built = with_progress(|progress| {
         let built = capture::build(&arguments.pictures, &options, progress)?;
@@ -111,17 +111,17 @@ pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
     output.result(report, || {
         let size = built.amc.size();
         format!(
-            "{}: {} x {} x {}, symmetry {}{}, ball at ({:.1}, {:.1}) radius {:.1} px (residual {:.2} px)",
+            "{}: {} x {} x {}, symmetry {}{}, ball at ({:.1}, {:.1}) radius {:.1} px{}",
             arguments.output.display(),
             size.side(),
             size.side(),
             size.slices(),
-            report.symmetry,
+            report.symmetry.order(),
             if report.isotropic { " (isotropic)" } else { "" },
             report.ball.x,
             report.ball.y,
             report.ball.radius,
-            report.ball.residual,
+            report.ball.residual.map(|pixels| format!(" (residual {pixels:.2} px)")).unwrap_or_default(),
         )
     })?;
     Ok(())

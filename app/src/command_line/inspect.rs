@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use amc_core::amc::Amc;
-use amc_core::capture::Session;
+use amc_core::capture::{SESSION_FILE, Session};
 use amc_core::mesh::{Garment, Panel, Unit};
 use amc_core::{Error, Result};
 use serde_json::{Value, json};
@@ -31,7 +31,7 @@ pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
 }
 
 fn inspect(file: &Path, unit: Unit) -> Result<Value> {
-    if file.is_dir() || file.file_name().is_some_and(|name| name == "session.json") {
+    if file.is_dir() || file.file_name().is_some_and(|name| name == SESSION_FILE) {
         return session(file);
     }
     match file.extension().and_then(|suffix| suffix.to_str()).map(str::to_ascii_lowercase).as_deref() {
@@ -66,28 +66,17 @@ fn panel(panel: &Panel) -> Value {
 }
 
 fn amc(file: &Path) -> Result<Value> {
-    let amc = Amc::read(file)?;
-    let json_error = |error| Error::invalid("its metadata cannot be written as JSON").because::<serde_json::Error>(error);
-    Ok(json!({
-        "kind": "amc",
-        "size": amc.size().side(),
-        "slices": amc.size().slices(),
-        "symmetry": amc.symmetry.order(),
-        "azimuth": amc.azimuth,
-        "frame": amc.frame,
-        "format": amc.texels().format(),
-        "bytes": amc.bytes(),
-        "metadata": serde_json::to_value(&amc.metadata).map_err(json_error)?,
-    }))
+    serde_json::to_value(Amc::read(file)?.summary())
+        .map_err(|error| Error::invalid("its summary cannot be written as JSON").because(error).in_file(file))
 }
 
-fn session(folder: &Path) -> Result<Value> {
-    let session = Session::open(folder)?;
+fn session(path: &Path) -> Result<Value> {
+    let session = if path.is_dir() { Session::read(&path.join(SESSION_FILE))? } else { Session::read(path)? };
     Ok(json!({
         "kind": "session",
         "pictures": session.pictures.iter().map(|picture| json!({
             "file": picture.file,
-            "angle_deg": picture.angle.to_degrees(),
+            "angle_deg": picture.angle_deg,
         })).collect::<Vec<_>>(),
         "turn": session.turn,
     }))
@@ -103,7 +92,9 @@ fn as_text(value: &Value, depth: usize) -> String {
             Value::Object(inner) if !inner.is_empty() && depth < 2 => {
                 text += &format!("{indent}{key}:\n{}", as_text(member, depth + 1));
             }
-            Value::Array(items) if items.len() > 64 => text += &format!("{indent}{key}: {} of them\n", items.len()),
+            Value::Array(items) if items.len() > 64 => {
+                text += &format!("{indent}{key}: {} of them\n", items.len())
+            }
             Value::Array(items) if !items.is_empty() => {
                 text += &format!("{indent}{key}:\n");
                 for item in items {
@@ -125,7 +116,8 @@ fn one_line(value: &Value) -> String {
             _ => number.to_string(),
         },
         Value::Object(members) => {
-            let parts: Vec<_> = members.iter().map(|(key, member)| format!("{key} {}", one_line(member))).collect();
+            let parts: Vec<_> =
+                members.iter().map(|(key, member)| format!("{key} {}", one_line(member))).collect();
             parts.join(", ")
         }
         Value::Array(items) => items.iter().map(one_line).collect::<Vec<_>>().join(" "),

@@ -48,13 +48,15 @@ impl FromStr for PanelOption {
         if id.is_empty() || id.contains('=') {
             return Err("expected a panel's id or 'all' first (ids: amc-studio inspect MESH)".to_owned());
         }
-        let mut option = Self { id: (id != "all").then(|| id.to_owned()), amc: None, angle_degrees: None, source: None };
+        let mut option =
+            Self { id: (id != "all").then(|| id.to_owned()), amc: None, angle_degrees: None, source: None };
         for part in parts {
             match part.split_once('=') {
                 Some(("amc", file)) if !file.is_empty() => option.amc = Some(file.into()),
                 Some(("angle", degrees)) => {
                     let degrees = degrees.parse::<f32>().ok().filter(|degrees| degrees.is_finite());
-                    option.angle_degrees = Some(degrees.ok_or("an angle is a number of degrees, such as angle=45")?);
+                    option.angle_degrees =
+                        Some(degrees.ok_or("an angle is a number of degrees, such as angle=45")?);
                 }
                 Some(("source", name)) => {
                     let known = SOURCES.iter().find(|(known, _)| *known == name);
@@ -79,9 +81,20 @@ mod tests {
     fn a_panel_option_says_only_what_it_says() {
         let option: PanelOption = "front,angle=-12.5,source=yarn".parse().unwrap();
         assert_eq!(option.id.as_deref(), Some("front"));
-        assert_eq!((option.angle_degrees, option.source, option.amc), (Some(-12.5), Some(SourceName::Yarn), None));
+        assert_eq!(
+            (option.angle_degrees, option.source, option.amc),
+            (Some(-12.5), Some(SourceName::Yarn), None)
+        );
         assert_eq!("all,amc=a.amc.ktx2".parse::<PanelOption>().unwrap().id, None);
-        for wrong in ["", "angle=3", "all,angle=north", "all,source=warp", "all,amc=", "all,colour=red", "all,angle=NaN"] {
+        for wrong in [
+            "",
+            "angle=3",
+            "all,angle=north",
+            "all,source=warp",
+            "all,amc=",
+            "all,colour=red",
+            "all,angle=NaN",
+        ] {
             assert!(wrong.parse::<PanelOption>().is_err(), "{wrong}");
         }
     }

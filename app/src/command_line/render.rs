@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use amc_core::image::{self, Picture, encode};
+use amc_core::image::{Picture, decode, encode};
 use amc_core::mesh::Unit;
 use amc_core::render::{Camera, Cyclic, Drawing, Mode, Orientation, Perspective, Shading, View, cpu, gpu};
 use amc_core::{Error, Progress, Result};
@@ -125,7 +125,9 @@ pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
     };
     let PictureSize { width, height } = arguments.size;
     let view = match &arguments.camera {
-        Some(file) => View::with_camera(&Camera::read(file)?, orientation, &garment.positions, width, height)?,
+        Some(file) => {
+            View::with_camera(&Camera::read(file)?, orientation, &garment.positions, width, height)?
+        }
         None => View::fitted(&garment.positions, orientation, width, height)?,
     };
     let (picture, renderer) = with_progress(|progress| {
@@ -176,7 +178,7 @@ fn shading(arguments: &Arguments) -> Result<Shading, Failure> {
         "uv" => Mode::Uv,
         "lines" => return Err(Failure::NotAvailable("the shading 'lines'".to_owned())),
         other => match other.strip_prefix("matcap=") {
-            Some(file) => Mode::MatCap(Arc::new(image::read(Path::new(file))?)),
+            Some(file) => Mode::MatCap(Arc::new(decode::read(Path::new(file))?)),
             None => {
                 return Err(Failure::Usage(format!(
                     "the shading '{other}' is none of amc, isotropic, matcap=PNG, normals, tangents, uv"
@@ -224,14 +226,16 @@ impl PictureFormat {
         match suffix.as_deref() {
             Some("png") => Ok(Self::Png),
             Some("exr") => Ok(Self::Exr),
-            _ => Err(Failure::Usage(format!("a picture is saved as .png or .exr, not as {}", file.display()))),
+            _ => {
+                Err(Failure::Usage(format!("a picture is saved as .png or .exr, not as {}", file.display())))
+            }
         }
     }
 
     pub(super) fn save(self, picture: &Picture, file: &Path) -> Result<(), Error> {
         match self {
-            Self::Png => encode::save_png(picture, file, &[]),
-            Self::Exr => encode::save_exr(picture, file),
+            Self::Png => encode::write_png(picture, file, &[]),
+            Self::Exr => encode::write_exr(picture, file),
         }
     }
 }

@@ -13,7 +13,9 @@ impl FromStr for PictureSize {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let parsed = text.split_once(['x', 'X']).and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
+        let parsed = text
+            .split_once(['x', 'X'])
+            .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
         match parsed {
             Some((width @ 1..=16384, height @ 1..=16384)) => Ok(Self { width, height }),
             _ => Err("expected WIDTHxHEIGHT, each 1 to 16384, such as 1024x768".to_owned()),
@@ -60,7 +62,8 @@ impl FromStr for Sphere {
             Ok(&[x, y, radius]) if x.is_finite() && y.is_finite() && radius.is_finite() && radius > 0.0 => {
                 Ok(Self::Given { x, y, radius })
             }
-            _ => Err("expected auto, or X,Y,RADIUS in pixels with a radius above 0, such as 320,240,180px".to_owned()),
+            _ => Err("expected auto, or X,Y,RADIUS in pixels with a radius above 0, such as 320,240,180px"
+                .to_owned()),
         }
     }
 }
@@ -81,7 +84,8 @@ impl FromStr for FieldOfView {
         }
         match text.parse::<f32>() {
             Ok(degrees) if degrees > 0.0 && degrees < 180.0 => Ok(Self::Degrees(degrees)),
-            _ => Err("expected ortho, or the horizontal field of view in degrees, above 0 and below 180".to_owned()),
+            _ => Err("expected ortho, or the horizontal field of view in degrees, above 0 and below 180"
+                .to_owned()),
         }
     }
 }

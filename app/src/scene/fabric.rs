@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use amc_core::amc::Amc;
 use amc_core::bake::{self, BakeOptions};
-use amc_core::reflectance::{self, Description};
+use amc_core::reflectance;
 use amc_core::{Progress, Result};
 
 use crate::storage::cache_folder;
@@ -48,14 +48,15 @@ impl Fabrics {
 }
 
 /// The bundled satin: from the cache, else baked and cached.
-pub(crate) fn bundled_fabric(progress: &Progress<'_>) -> Result<Amc> {
-    let text = reflectance::SATIN;
+fn bundled_fabric(progress: &Progress<'_>) -> Result<Amc> {
+    let bundled = reflectance::BUNDLED[0];
     let options = BakeOptions::default();
-    let bake = || bake::bake(&Description::from_json(text.as_bytes())?, &options, progress);
+    let bake = || bake::bake(&bundled.description()?, &options, progress);
     let Some(folder) = cache_folder() else { return bake() };
     // The version of the program is part of the key: another version may bake otherwise.
-    let key = format!("{text}\n{options:?}\n{}", env!("CARGO_PKG_VERSION"));
-    let file = folder.join("fabrics").join(format!("{}.amc.ktx2", amc_core::file::content_key(key.as_bytes())));
+    let key = format!("{}\n{options:?}\n{}", bundled.json, env!("CARGO_PKG_VERSION"));
+    let file =
+        folder.join("fabrics").join(format!("{}.amc.ktx2", amc_core::file::content_key(key.as_bytes())));
     if file.exists() {
         match Amc::read(&file) {
             Ok(table) => return Ok(table),

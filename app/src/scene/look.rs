@@ -54,7 +54,10 @@ pub(crate) fn panel_looks(
             && !garment.panels.iter().any(|panel| panel.id == *id)
         {
             let known: Vec<_> = garment.panels.iter().map(|panel| panel.id.as_str()).collect();
-            return Err(Error::invalid(format!("there is no panel '{id}'; the panels are {}", known.join(", "))));
+            return Err(Error::invalid(format!(
+                "there is no panel '{id}'; the panels are {}",
+                known.join(", ")
+            )));
         }
         let fabric = match (&option.amc, fabrics.as_deref_mut()) {
             (Some(file), Some(fabrics)) => Some(fabrics.from_file(file)?),
@@ -85,7 +88,9 @@ fn source_of(name: SourceName, centre: Vec3) -> Source {
     match name {
         SourceName::Gradient => Source::Gradient,
         SourceName::Yarn => Source::Yarn,
-        SourceName::Around(axis) => Source::Field(Field::Around { origin: centre, direction: Vec3::AXES[axis] }),
+        SourceName::Around(axis) => {
+            Source::Field(Field::Around { origin: centre, direction: Vec3::AXES[axis] })
+        }
         SourceName::Along(axis) => Source::Field(Field::Along { direction: Vec3::AXES[axis] }),
         SourceName::Radial => Source::Field(Field::Radial { origin: centre }),
     }

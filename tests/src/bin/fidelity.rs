@@ -9,7 +9,7 @@ use std::sync::Arc;
 use amc_core::amc::Amc;
 use amc_core::capture::{self, BuildOptions};
 use amc_core::direction::{self, Direction, Source};
-use amc_core::image::{self, compare::psnr_srgb};
+use amc_core::image::{compare::psnr_srgb, decode};
 use amc_core::mesh::{self, Garment, Unit};
 use amc_core::render::{Camera, Cloth, Drawing, Mode, Orientation, Perspective, Shading, View, cpu};
 use amc_core::view_space::Azimuth;
@@ -32,7 +32,7 @@ fn main() -> std::process::ExitCode {
 fn table(data: &Path) -> Result<()> {
     let ideal_options = BuildOptions::default();
     let projected_options = BuildOptions { azimuth: Azimuth::Projected, ..ideal_options.clone() };
-    let camera_options = BuildOptions { horizontal_fov: Some(22f32.to_radians()), ..ideal_options.clone() };
+    let camera_options = BuildOptions { horizontal_fov: Some(22f64.to_radians()), ..ideal_options.clone() };
     let ideal = built(&data.join("ball-ideal/frames"), &ideal_options)?;
     let projected = built(&data.join("ball-ideal/frames"), &projected_options)?;
     let camera = built(&data.join("ball-camera/frames"), &camera_options)?;
@@ -59,8 +59,20 @@ fn table(data: &Path) -> Result<()> {
     row("torus", "orthographic", ("ball-camera, fov 22", &camera), plain, ">= 36")?;
     row("sheet", "orthographic", ("ball-camera, fov 22", &camera), plain, ">= 44")?;
     for scene in ["torus", "sheet"] {
-        row(scene, "orthographic", ("ball-ideal, transported", &ideal), Look { isotropic: true, ..plain }, "far below")?;
-        row(scene, "orthographic", ("ball-ideal, transported", &ideal), Look { angle_degrees: 90.0, ..plain }, "far below")?;
+        row(
+            scene,
+            "orthographic",
+            ("ball-ideal, transported", &ideal),
+            Look { isotropic: true, ..plain },
+            "far below",
+        )?;
+        row(
+            scene,
+            "orthographic",
+            ("ball-ideal, transported", &ideal),
+            Look { angle_degrees: 90.0, ..plain },
+            "far below",
+        )?;
     }
     Ok(())
 }
@@ -68,7 +80,7 @@ fn table(data: &Path) -> Result<()> {
 fn built(pictures: &Path, options: &BuildOptions) -> Result<Arc<Amc>> {
     let built = capture::build(pictures, options, &Progress::none())?;
     let report = &built.report;
-    eprintln!("{}: symmetry {}, ball {:?}", pictures.display(), report.symmetry, report.ball);
+    eprintln!("{}: symmetry {}, ball {:?}", pictures.display(), report.symmetry.order(), report.ball);
     Ok(Arc::new(built.amc))
 }
 
@@ -90,7 +102,9 @@ impl Look {
     fn words(self) -> String {
         match self {
             Self { isotropic: true, .. } => ", isotropic MatCap".to_owned(),
-            Self { angle_degrees, .. } if angle_degrees != 0.0 => format!(", turned by {angle_degrees} degrees"),
+            Self { angle_degrees, .. } if angle_degrees != 0.0 => {
+                format!(", turned by {angle_degrees} degrees")
+            }
             Self { perspective: Perspective::Half, .. } => String::new(),
             Self { perspective, .. } => format!(", perspective {perspective:?}").to_lowercase(),
         }
@@ -98,17 +112,22 @@ impl Look {
 }
 
 /// PSNR of our picture of the scene against the path tracer's, in dB.
-fn psnr(data: &Path, scene: &str, view: &str, table: &Arc<Amc>, look: Look) -> Result<f32> {
+fn psnr(data: &Path, scene: &str, view: &str, table: &Arc<Amc>, look: Look) -> Result<f64> {
     let scenes = data.join("scenes");
     let mesh_name = scene.split('-').next().unwrap_or(scene);
     let garment = Garment::new(mesh::read(&scenes.join(format!("{mesh_name}.obj")), Unit::Metre)?)?;
     let direction = Direction { source: Source::Yarn, angle: look.angle_degrees.to_radians() };
     let tangents = direction::tangents(&garment, &vec![direction; garment.panels.len()])?;
     let drawing = Drawing::new(&garment, &tangents.vectors, None, vec![table.clone()], |_| Cloth::Fabric(0))?;
-    let truth = image::read(&scenes.join(format!("{scene}.png")))?;
+    let truth = decode::read(&scenes.join(format!("{scene}.png")))?;
     let camera = Camera::read(&scenes.join(format!("{view}.camera.json")))?;
-    let view =
-        View::with_camera(&camera, Orientation::default(), &garment.positions, truth.width(), truth.height())?;
+    let view = View::with_camera(
+        &camera,
+        Orientation::default(),
+        &garment.positions,
+        truth.width(),
+        truth.height(),
+    )?;
     let shading = Shading {
         mode: if look.isotropic { Mode::Isotropic } else { Mode::Amc },
         perspective: look.perspective,

@@ -49,8 +49,12 @@ impl Gpu {
 /// Vulkan before OpenGL, but a real device before one in software.
 fn best_adapter() -> Result<wgpu::Adapter> {
     let in_software = |adapter: &wgpu::Adapter| adapter.get_info().device_type == wgpu::DeviceType::Cpu;
-    match (adapter(wgpu::Backends::VULKAN), adapter(wgpu::Backends::GL)) {
-        (Ok(vulkan), Ok(gl)) if in_software(&vulkan) && !in_software(&gl) => Ok(gl),
+    let vulkan = adapter(wgpu::Backends::VULKAN);
+    if vulkan.as_ref().is_ok_and(|found| !in_software(found)) {
+        return vulkan;
+    }
+    match (vulkan, adapter(wgpu::Backends::GL)) {
+        (Ok(_), Ok(gl)) if !in_software(&gl) => Ok(gl),
         (Ok(found), _) | (Err(_), Ok(found)) => Ok(found),
         (Err(vulkan), Err(gl)) => Err(Error::device(format!("{vulkan}; {gl}"))),
     }

@@ -1,0 +1,314 @@
+//! UV islands: the connected pieces of the flat pattern.
+
+use std::borrow::Cow;
+
+use glam::{Vec2, Vec3};
+
+use super::forest::Forest;
+use super::weld::{bits, weld};
+
+/// Which island each triangle belongs to.
+pub(super) struct Islands {
+    /// Numbered in the order of their first triangles.
+    pub(super) of_triangle: Vec<u32>,
+    /// How many there are.
+    pub(super) count: usize,
+}
+
+/// Above this many pieces it is quicker to compare all vertices than all pairs of pieces.
+const PIECES_COMPARED: usize = 512;
+
+/// Finds the UV islands of triangles that share no vertex across parts; `parts` gives each triangle's part, and
+/// triangles of parts in `whole` are joined into one island whatever their UVs.
+///
+/// Vertices count as one where position and UV are the same, so a crease (normals doubled) does not cut. Triangles
+/// belong together when they share an edge; pieces that touch in one point only stay apart.
+pub(super) fn find(
+    positions: &[Vec3],
+    uvs: &[Vec2],
+    triangles: &[[u32; 3]],
+    parts: &[u32],
+    whole: &[bool],
+) -> Islands {
+    let mut count = positions.len();
+    let mut joined = Cow::Borrowed(triangles);
+    let mut forest = connect(&joined, count);
+    let pieces = Pieces::new(&mut forest, triangles, parts, count);
+    let mut changed = false;
+    if let Some(same) = join_equal(positions, uvs, &pieces) {
+        for corner in joined.to_mut().as_flattened_mut() {
+            *corner = same[*corner as usize];
+        }
+        changed = true;
+    }
+    if let Some(parted) = part_pinches(&mut joined, count) {
+        count = parted;
+        changed = true;
+    }
+    if changed {
+        forest = connect(&joined, count);
+    }
+    if whole.contains(&true) {
+        let mut first = vec![u32::MAX; whole.len()];
+        for (triangle, &part) in joined.iter().zip(parts) {
+            let part = part as usize;
+            if whole[part] {
+                if first[part] == u32::MAX {
+                    first[part] = triangle[0];
+                }
+                forest.join(first[part], triangle[0]);
+            }
+        }
+    } else if !changed {
+        return Islands { of_triangle: pieces.of_triangle, count: pieces.parts.len() };
+    }
+    let (of_triangle, count) = number(&mut forest, &joined, count);
+    Islands { of_triangle, count }
+}
+
+fn connect(triangles: &[[u32; 3]], count: usize) -> Forest {
+    let mut forest = Forest::new(count);
+    for &[a, b, c] in triangles {
+        forest.join(a, b);
+        forest.join(b, c);
+    }
+    forest
+}
+
+/// Numbers the sets in the order of their first triangles.
+fn number(forest: &mut Forest, triangles: &[[u32; 3]], count: usize) -> (Vec<u32>, usize) {
+    let mut numbers = vec![u32::MAX; count];
+    let mut next = 0;
+    let of_triangle = triangles
+        .iter()
+        .map(|triangle| {
+            let number = &mut numbers[forest.root(triangle[0]) as usize];
+            if *number == u32::MAX {
+                *number = next;
+                next += 1;
+            }
+            *number
+        })
+        .collect();
+    (of_triangle, next as usize)
+}
+
+/// The pieces connected by their indices alone.
+struct Pieces {
+    of_triangle: Vec<u32>,
+    /// The part of each piece.
+    parts: Vec<u32>,
+    /// The piece of each vertex; `u32::MAX` where no triangle uses it.
+    of_vertex: Vec<u32>,
+}
+
+impl Pieces {
+    fn new(forest: &mut Forest, triangles: &[[u32; 3]], parts: &[u32], vertices: usize) -> Self {
+        let (of_triangle, count) = number(forest, triangles, vertices);
+        let mut part_of = vec![0; count];
+        let mut of_vertex = vec![u32::MAX; vertices];
+        for ((triangle, &piece), &part) in triangles.iter().zip(&of_triangle).zip(parts) {
+            part_of[piece as usize] = part;
+            for &corner in triangle {
+                of_vertex[corner as usize] = piece;
+            }
+        }
+        Self { of_triangle, parts: part_of, of_vertex }
+    }
+}
+
+/// For each vertex the first vertex of its part with the same position and UV; none where no two are the same.
+///
+/// Only pieces of one part whose boxes meet can share a vertex, and only vertices of those are compared.
+fn join_equal(positions: &[Vec3], uvs: &[Vec2], pieces: &Pieces) -> Option<Vec<u32>> {
+    let count = pieces.parts.len();
+    let suspect =
+        if count > PIECES_COMPARED { vec![true; count] } else { meeting_pieces(positions, uvs, pieces) };
+    let compared: Vec<u32> = (0..positions.len() as u32)
+        .filter(|&vertex| suspect.get(pieces.of_vertex[vertex as usize] as usize) == Some(&true))
+        .collect();
+    let first = weld(compared.len(), |k| {
+        let vertex = compared[k] as usize;
+        let ([x, y, z], [u, v]) = (positions[vertex].to_array(), uvs[vertex].to_array());
+        let part = pieces.parts[pieces.of_vertex[vertex] as usize];
+        [bits(x), bits(y), bits(z), bits(u), bits(v), part]
+    });
+    let mut same: Vec<u32> = (0..positions.len() as u32).collect();
+    let mut any = false;
+    for (k, &first) in first.iter().enumerate() {
+        any |= first as usize != k;
+        same[compared[k] as usize] = compared[first as usize];
+    }
+    any.then_some(same)
+}
+
+/// The pieces whose box in space and in the UV map meets that of another piece of the same part.
+fn meeting_pieces(positions: &[Vec3], uvs: &[Vec2], pieces: &Pieces) -> Vec<bool> {
+    let count = pieces.parts.len();
+    let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY, Vec2::INFINITY, Vec2::NEG_INFINITY);
+    let mut boxes = vec![empty; count];
+    for ((&p, &uv), &piece) in positions.iter().zip(uvs).zip(&pieces.of_vertex) {
+        if let Some((low, high, uv_low, uv_high)) = boxes.get_mut(piece as usize) {
+            (*low, *high) = (low.min(p), high.max(p));
+            (*uv_low, *uv_high) = (uv_low.min(uv), uv_high.max(uv));
+        }
+    }
+    let mut suspect = vec![false; count];
+    for i in 0..count {
+        for j in 0..i {
+            let ((a, b, c, d), (e, f, g, h)) = (boxes[i], boxes[j]);
+            let space = a.cmple(f).all() && e.cmple(b).all();
+            let pattern = c.cmple(h).all() && g.cmple(d).all();
+            if pieces.parts[i] == pieces.parts[j] && space && pattern {
+                suspect[i] = true;
+                suspect[j] = true;
+            }
+        }
+    }
+    suspect
+}
+
+/// Gives every fan of triangles at a vertex its own number, where several fans meet in the vertex without sharing
+/// an edge. Returns how many numbers there are then; none where there was nothing to part.
+///
+/// An inner vertex has each neighbour on two of its triangles: hashes of the neighbours, combined by exclusive or,
+/// leave zero. Only where they do not is the vertex on a border and looked at more closely. (Two closed fans on one
+/// vertex are not seen: the UV map would lie over itself there.)
+fn part_pinches(triangles: &mut Cow<'_, [[u32; 3]]>, count: usize) -> Option<usize> {
+    let mut remains = vec![0u32; count];
+    for &[a, b, c] in triangles.iter() {
+        let (x, y, z) = (scramble(a), scramble(b), scramble(c));
+        remains[a as usize] ^= y ^ z;
+        remains[b as usize] ^= z ^ x;
+        remains[c as usize] ^= x ^ y;
+    }
+    let mut edges = Vec::new();
+    for (t, triangle) in triangles.iter().enumerate() {
+        for c in 0..3 {
+            let vertex = triangle[c];
+            if remains[vertex as usize] != 0 {
+                edges.push((vertex, triangle[(c + 1) % 3], t as u32));
+                edges.push((vertex, triangle[(c + 2) % 3], t as u32));
+            }
+        }
+    }
+    edges.sort_unstable();
+    let mut next = count;
+    for at_vertex in edges.chunk_by(|a, b| a.0 == b.0) {
+        // Triangles take the place they have here among those of the vertex.
+        let mut around: Vec<u32> = at_vertex.iter().map(|edge| edge.2).collect();
+        around.sort_unstable();
+        around.dedup();
+        let place = |t: u32| around.partition_point(|&other| other < t) as u32;
+        let mut fans = Forest::new(around.len());
+        for pair in at_vertex.windows(2) {
+            if pair[0].1 == pair[1].1 {
+                fans.join(place(pair[0].2), place(pair[1].2));
+            }
+        }
+        let roots = fans.into_roots();
+        let mut number_of = vec![None; around.len()];
+        number_of[0] = Some(at_vertex[0].0);
+        for (place, &t) in around.iter().enumerate() {
+            let number = *number_of[roots[place] as usize].get_or_insert_with(|| {
+                next += 1;
+                (next - 1) as u32
+            });
+            if number != at_vertex[0].0 {
+                for corner in
+                    triangles.to_mut()[t as usize].iter_mut().filter(|corner| **corner == at_vertex[0].0)
+                {
+                    *corner = number;
+                }
+            }
+        }
+    }
+    (next > count).then_some(next)
+}
+
+/// The finaliser of MurmurHash3 (Appleby): a bijection.
+fn scramble(mut x: u32) -> u32 {
+    x ^= x >> 16;
+    x = x.wrapping_mul(0x85EB_CA6B);
+    x ^= x >> 13;
+    x = x.wrapping_mul(0xC2B2_AE35);
+    x ^ (x >> 16)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn islands(uvs: &[[f32; 2]], triangles: &[[u32; 3]]) -> Vec<u32> {
+        let uvs: Vec<Vec2> = uvs.iter().map(|&uv| Vec2::from(uv)).collect();
+        let positions: Vec<Vec3> = uvs.iter().map(|uv| uv.extend(0.0)).collect();
+        find(&positions, &uvs, triangles, &vec![0; triangles.len()], &[false]).of_triangle
+    }
+
+    #[test]
+    fn pieces_that_share_an_edge_by_value_are_one_island() {
+        let uvs = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [1.0, 1.0], [0.0, 1.0], [-0.0, 0.0]];
+        assert_eq!(islands(&uvs, &[[0, 1, 2], [3, 4, 5]]), [0, 0]);
+    }
+
+    #[test]
+    fn pieces_that_touch_in_a_point_stay_apart_whether_or_not_they_share_the_vertex() {
+        let uvs = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [2.0, 1.0], [2.0, 2.0], [1.0, 1.0]];
+        assert_eq!(islands(&uvs, &[[0, 1, 2], [2, 3, 4]]), [0, 1]);
+        assert_eq!(islands(&uvs, &[[0, 1, 2], [5, 3, 4]]), [0, 1]);
+    }
+
+    #[test]
+    fn a_hole_whose_border_touches_the_outline_does_not_cut() {
+        // A ring of squares around a hole, all corners of the hole being inner or border vertices of one island.
+        let mut uvs = Vec::new();
+        for y in 0..4 {
+            for x in 0..4 {
+                uvs.push([x as f32, y as f32]);
+            }
+        }
+        let mut triangles = Vec::new();
+        for y in 0..3u32 {
+            for x in 0..3u32 {
+                if (x, y) != (1, 1) && (x, y) != (0, 0) {
+                    let a = y * 4 + x;
+                    triangles.extend([[a, a + 1, a + 5], [a, a + 5, a + 4]]);
+                }
+            }
+        }
+        // Vertex 5 is where the missing corner and the hole touch: two fans, one island around the other side.
+        assert_eq!(islands(&uvs, &triangles), [0; 14]);
+    }
+
+    #[test]
+    fn same_uv_elsewhere_in_space_does_not_join() {
+        let uv = [Vec2::ZERO, Vec2::X, Vec2::Y];
+        let uvs = [uv, uv].concat();
+        let mut positions: Vec<Vec3> = uvs.iter().map(|uv| uv.extend(0.0)).collect();
+        positions[3..].iter_mut().for_each(|p| p.z = 1.0);
+        let found = find(&positions, &uvs, &[[0, 1, 2], [3, 4, 5]], &[0, 0], &[false]);
+        assert_eq!((found.of_triangle, found.count), (vec![0, 1], 2));
+    }
+
+    #[test]
+    fn loose_triangles_are_put_together() {
+        // More pieces than are compared in pairs: a grid of 20 x 20 squares, no vertex shared.
+        let (mut uvs, mut triangles) = (Vec::new(), Vec::new());
+        for k in 0..400 {
+            let (x, y) = ((k % 20) as f32, (k / 20) as f32);
+            for square in [[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]]] {
+                let base = uvs.len() as u32;
+                uvs.extend(square.map(|[u, v]| [x + u, y + v]));
+                triangles.push([base, base + 1, base + 2]);
+            }
+        }
+        assert_eq!(islands(&uvs, &triangles), [0; 800]);
+    }
+
+    #[test]
+    fn a_part_without_uvs_is_one_island() {
+        let positions = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE, -Vec3::ONE];
+        let found = find(&positions, &[Vec2::ZERO; 6], &[[0, 1, 2], [3, 4, 5]], &[0, 0], &[true]);
+        assert_eq!(found.count, 1);
+    }
+}

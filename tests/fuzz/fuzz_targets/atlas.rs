@@ -1,3 +1,0 @@
-#![no_main]
-
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| studio_fuzz::feed(studio_tests::fuzz_targets::atlas, bytes));
