@@ -1,22 +1,46 @@
 //! Garments as triangles: reading, checking, panels.
 //!
 //! A [`Mesh`] is what a file or a shape gives; [`Garment`] is that mesh cut into panels, ready for directions and drawing.
+//! Reading: [`read()`], or [`obj::parse`] and [`gltf::parse`] on bytes in memory. A reader fills a draft, one
+//! common check makes a [`Mesh`] of it. Panels: islands of the UV map, their vertices parted, their figures measured.
 
+mod check;
+mod draft;
+mod fabric_words;
+mod forest;
+pub mod gltf;
+mod identity;
+mod islands;
+mod measure;
+#[cfg(test)]
+mod mutations;
+mod normals;
+pub mod obj;
 mod panel;
+mod read;
+mod split;
+mod triangulate;
+mod unit;
+mod weld;
 
 pub use panel::{Garment, Panel, PanelFlags, Percentiles};
+pub use read::{FILE_LIMIT, Resolve, read, suffixes};
+pub use unit::Unit;
 
 use glam::{Vec2, Vec3};
 
+/// Most characters of a name that are kept.
+const NAME_LIMIT: usize = 120;
+
 /// Triangles with normals and, where the file has them, UVs. Checked: every index is in range, every number finite,
-/// every normal a unit vector, no triangle uses a vertex twice.
+/// every normal a unit vector, no triangle uses a vertex twice or is without area.
 #[derive(Debug, Clone, Default)]
 pub struct Mesh {
     /// In metres, object space, Y up.
     pub positions: Vec<Vec3>,
     /// Unit vectors, one per position.
     pub normals: Vec<Vec3>,
-    /// One per position, v up; none where the file has none.
+    /// One per position, v up; none where the file has none, zeros in parts that have none.
     pub uvs: Option<Vec<Vec2>>,
     /// Corners, counter-clockwise as seen from the front.
     pub triangles: Vec<[u32; 3]>,
@@ -35,7 +59,11 @@ pub struct Mesh {
 pub struct Part {
     /// Its name in the file, or one made up.
     pub name: String,
-    /// Whether it takes a fabric; a body or buttons do not, and are drawn in plain grey. A glTF primitive or OBJ
-    /// group says so by its name (see the readers).
+    /// Whether it takes a fabric; what does not is drawn in plain grey.
+    ///
+    /// A part takes none where one of its names in the file (OBJ object, group, material; glTF node, mesh, material)
+    /// ends in a word for a body, hair, eyes, shoes, buttons, zippers or the like: "shirt buttons", "Body", but not
+    /// "body suit". In glTF, `"extras": {"amc": {"fabric": true}}` (or `false`) on the primitive, material, mesh or
+    /// node decides instead. Where every part would take none, all of them do.
     pub takes_fabric: bool,
 }
