@@ -33,7 +33,7 @@ pub(super) fn missing(garment: &Garment, vectors: &[Vec3]) -> Vec<u32> {
 
 /// Gives every vertex of `triangles` (one panel's) a direction. Returns whether some had to be made up.
 pub(super) fn fill(garment: &Garment, triangles: &[[u32; 3]], angle: f32, vectors: &mut [Vec3]) -> bool {
-    let neighbours = Neighbours::new(triangles, vectors);
+    let neighbours = Neighbours::new(&garment.positions, triangles, vectors);
     spread(garment, &neighbours, vectors);
     let mut made_up = false;
     for axis in [Vec3::Y, Vec3::X, Vec3::Z] {
@@ -52,7 +52,8 @@ pub(super) fn fill(garment: &Garment, triangles: &[[u32; 3]], angle: f32, vector
     made_up
 }
 
-/// The vertices of a panel that have no direction, and who stands around them.
+/// The vertices of a panel that have no direction, and who stands around them: the other ends of their edges, and
+/// vertices at the same place.
 struct Neighbours {
     /// Sorted.
     vertices: Vec<u32>,
@@ -64,10 +65,22 @@ struct Neighbours {
 }
 
 impl Neighbours {
-    fn new(triangles: &[[u32; 3]], vectors: &[Vec3]) -> Self {
+    fn new(positions: &[Vec3], triangles: &[[u32; 3]], vectors: &[Vec3]) -> Self {
         let mut edges: Vec<[u32; 2]> = Vec::new();
         for &[a, b, c] in triangles {
             for [from, to] in [[a, b], [b, a], [b, c], [c, b], [c, a], [a, c]] {
+                if vectors[from as usize] == Vec3::ZERO {
+                    edges.push([from, to]);
+                }
+            }
+        }
+        // Across creases and folds, where a place has several vertices.
+        let bits = |vertex: &u32| positions[*vertex as usize].to_array().map(f32::to_bits);
+        let mut places: Vec<u32> = triangles.as_flattened().to_vec();
+        places.sort_unstable_by_key(|vertex| (bits(vertex), *vertex));
+        places.dedup();
+        for pair in places.windows(2).filter(|pair| bits(&pair[0]) == bits(&pair[1])) {
+            for [from, to] in [[pair[0], pair[1]], [pair[1], pair[0]]] {
                 if vectors[from as usize] == Vec3::ZERO {
                     edges.push([from, to]);
                 }

@@ -7,7 +7,7 @@ mod field;
 mod fill;
 mod tangents;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use tangents::{Tangents, tangents};
 

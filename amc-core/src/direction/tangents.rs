@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::field::Procedural;
 use super::{Direction, Source, fill};
-use crate::mesh::{Garment, Panel};
+use crate::mesh::{Garment, Panel, uv_area};
 use crate::view_space::perpendicular;
 use crate::{Error, Result};
 
@@ -166,23 +166,14 @@ fn of_triangle(p: [Vec3; 3], uv: [Vec2; 3], sin: f32, cos: f32, yarn: bool) -> V
     let (e, f) = (p[1] - p[0], p[2] - p[0]);
     let (eu, fu) = (uv[1] - uv[0], uv[2] - uv[0]);
     let Some(normal) = e.cross(f).try_normalize() else { return Vec3::ZERO };
-    let Some(orientation) = uv_orientation(uv) else { return Vec3::ZERO };
-    // The coefficients of f and -e, for X and Y together.
+    let area = uv_area(uv);
+    if area == 0.0 {
+        return Vec3::ZERO;
+    }
     let vector = if yarn {
-        (e * (cos * fu.y - sin * fu.x) + f * (sin * eu.x - cos * eu.y)) * orientation
+        (e * (cos * fu.y - sin * fu.x) + f * (sin * eu.x - cos * eu.y)) * area.signum()
     } else {
         (f * (cos * eu.x + sin * eu.y) - e * (cos * fu.x + sin * fu.y)).cross(normal)
     };
     vector.normalize_or_zero()
-}
-
-/// +1 where a triangle's UVs run counter-clockwise, -1 where they are mirrored, none where they have no area: less
-/// than the rounding of their numbers explains, or a millionth of their edges' product.
-pub(crate) fn uv_orientation(uv: [Vec2; 3]) -> Option<f32> {
-    let (e, f) = (uv[1] - uv[0], uv[2] - uv[0]);
-    let determinant = e.perp_dot(f);
-    let (e, f) = (e.abs().element_sum(), f.abs().element_sum());
-    let reach = uv[0].abs().max(uv[1].abs()).max(uv[2].abs()).max_element();
-    let least = (1e-6 * e * f).max(f32::EPSILON * reach * (e + f));
-    (determinant.abs() > least && determinant.is_finite()).then(|| determinant.signum())
 }

@@ -17,7 +17,7 @@ pub(super) struct UvMap {
 }
 
 /// Twice the signed area of a triangle in the flat pattern; zero where it is lost in rounding.
-pub(super) fn uv_area([a, b, c]: [Vec2; 3]) -> f32 {
+pub(crate) fn uv_area([a, b, c]: [Vec2; 3]) -> f32 {
     let (ab, ac) = (b - a, c - a);
     let area = ab.perp_dot(ac);
     // Each coordinate is known to half a unit in its last place.

@@ -23,6 +23,7 @@ mod triangulate;
 mod unit;
 mod weld;
 
+pub(crate) use measure::uv_area;
 pub use panel::{Garment, Panel, PanelFlags, Percentiles};
 pub use read::{FILE_LIMIT, Resolve, read, suffixes};
 pub use unit::Unit;

@@ -73,3 +73,15 @@ fn the_sheet_is_true_to_length_along_its_grain() {
     let back: Vec<Vec3> = mesh.normals.iter().copied().filter(|n| n.z <= 0.0).collect();
     assert!(back.is_empty());
 }
+
+#[test]
+fn every_shape_is_one_clean_panel() {
+    for name in NAMES {
+        let mesh = mesh(name).unwrap();
+        let count = mesh.positions.len();
+        let garment = crate::mesh::Garment::new(mesh).unwrap();
+        assert_eq!((garment.panels.len(), garment.positions.len()), (1, count), "{name}");
+        let flags = garment.panels[0].flags;
+        assert!(!flags.mirrored && !flags.degenerate, "{name}: {flags:?}");
+    }
+}

@@ -1,0 +1,62 @@
+//! Directions as JSON.
+
+use std::io::Write;
+
+use glam::{Vec3, Vec4};
+use serde::{Serialize, Serializer};
+
+use super::{GENERATOR, Piece};
+use crate::direction::Source;
+use crate::{Error, Result};
+
+#[derive(Serialize)]
+struct Document<'a> {
+    version: u32,
+    generator: &'static str,
+    /// What the numbers mean.
+    space: &'static str,
+    panels: Vec<PanelRecord<'a>>,
+}
+
+#[derive(Serialize)]
+struct PanelRecord<'a> {
+    id: &'a str,
+    name: &'a str,
+    source: Source,
+    angle_deg: f64,
+    takes_fabric: bool,
+    mean_direction: Option<Vec3>,
+    vertices: usize,
+    filled: u32,
+    made_up: bool,
+    positions: &'a [Vec3],
+    #[serde(serialize_with = "without_w")]
+    tangents: &'a [Vec4],
+}
+
+fn without_w<S: Serializer>(tangents: &&[Vec4], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(tangents.iter().map(|tangent| tangent.truncate()))
+}
+
+pub(super) fn write(pieces: &[Piece<'_>], out: &mut dyn Write) -> Result<()> {
+    let panels = pieces.iter().map(|piece| PanelRecord {
+        id: &piece.panel.id,
+        name: &piece.panel.name,
+        source: piece.direction.source,
+        angle_deg: piece.angle_deg(),
+        takes_fabric: piece.panel.takes_fabric,
+        mean_direction: piece.mean_direction(),
+        vertices: piece.positions.len(),
+        filled: piece.filled,
+        made_up: piece.made_up,
+        positions: &piece.positions,
+        tangents: &piece.tangents,
+    });
+    let document = Document {
+        version: 1,
+        generator: GENERATOR,
+        space: "object space, Y up, metres",
+        panels: panels.collect(),
+    };
+    serde_json::to_writer(out, &document).map_err(|error| Error::io("cannot write", error.into()))
+}

@@ -1,1 +1,0 @@
-//! Ambient occlusion per vertex (paper, section 6.1).
