@@ -57,7 +57,7 @@ impl LinearTable {
 }
 
 /// The normal of each texel on the disc, with the texel's index in its slice.
-pub(crate) fn normals(size: TableSize) -> Vec<(usize, glam::Vec3)> {
+fn normals(size: TableSize) -> Vec<(usize, glam::Vec3)> {
     let texels = (0..size.side()).flat_map(|j| (0..size.side()).map(move |i| (i, j)));
     texels
         .enumerate()

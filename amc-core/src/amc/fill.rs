@@ -3,6 +3,7 @@
 //! In the fourth channel 0 means that a texel holds nothing, [`FILLED`] that it was filled from its neighbours, and 1
 //! that it was measured (or worked out from texels that all were).
 
+use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::{LinearTable, TableSize};
@@ -47,20 +48,12 @@ impl LinearTable {
     }
 
     /// Fills all texels off the unit disc from the disc's rim, so that filtering at a silhouette stays inside: each gets
-    /// the bilinear value at the rim point on its radius, taken from texels on the disc only.
-    ///
-    /// A table of one texel has no rim and stays as it is.
+    /// the colour of the rim point on its radius, found from the texels on the disc nearby.
     pub fn fill_off_disc(&mut self) {
         let sources = rim_sources(self.size);
         self.texels.par_chunks_mut(self.size.slice_texels()).for_each(|slice| {
             for source in &sources {
-                let mut sum = [0.0; 4];
-                for &(index, weight) in &source.taps {
-                    for (sum, value) in sum.iter_mut().zip(slice[index]) {
-                        *sum += weight * value;
-                    }
-                }
-                slice[source.texel] = [sum[0], sum[1], sum[2], FILLED];
+                slice[source.texel] = source.colour(slice);
             }
         });
     }
@@ -95,8 +88,10 @@ fn grow(slice: &mut [[f32; 4]], disc: &[bool], side: usize) -> bool {
         return false;
     }
     while !unknown.is_empty() {
-        let ring: Vec<(usize, [f32; 4])> =
-            unknown.iter().filter_map(|&k| neighbour_mean(slice, &known, side, k).map(|mean| (k, mean))).collect();
+        let ring: Vec<(usize, [f32; 4])> = unknown
+            .iter()
+            .filter_map(|&k| neighbour_mean(slice, &known, side, k).map(|mean| (k, mean)))
+            .collect();
         // The disc is connected, so a ring is empty only when all is known.
         if ring.is_empty() {
             break;
@@ -129,10 +124,29 @@ fn neighbour_mean(slice: &[[f32; 4]], known: &[bool], side: usize, k: usize) -> 
     (weights > 0.0).then(|| [sum[0] / weights, sum[1] / weights, sum[2] / weights, FILLED])
 }
 
-/// What a texel off the disc is made of: texels of the same slice, on the disc, and their shares.
+/// What a texel off the disc is made of: texels of the same slice, on the disc, and their coefficients.
 struct RimSource {
     texel: usize,
     taps: Vec<(usize, f32)>,
+}
+
+impl RimSource {
+    /// The sum of the taps, kept within the tapped colours' range widened by half of it, and from going below 0.
+    fn colour(&self, slice: &[[f32; 4]]) -> [f32; 4] {
+        let mut colour = [0.0, 0.0, 0.0, FILLED];
+        for (c, value) in colour[..3].iter_mut().enumerate() {
+            let (mut sum, mut low, mut high) = (0.0f32, f32::INFINITY, f32::NEG_INFINITY);
+            for &(index, weight) in &self.taps {
+                let tapped = slice[index][c];
+                sum += weight * tapped;
+                low = low.min(tapped);
+                high = high.max(tapped);
+            }
+            let room = (high - low) / 2.0;
+            *value = sum.clamp(low - room, high + room).max(0.0);
+        }
+        colour
+    }
 }
 
 fn rim_sources(size: TableSize) -> Vec<RimSource> {
@@ -140,38 +154,63 @@ fn rim_sources(size: TableSize) -> Vec<RimSource> {
     let texels = (0..side).flat_map(|j| (0..side).map(move |i| (i, j)));
     texels
         .filter(|&(i, j)| !size.is_on_disc(i, j))
-        .filter_map(|(i, j)| {
-            let taps = rim_taps(size, size.normal_xy(i, j).normalize_or_zero());
-            (!taps.is_empty()).then(|| RimSource { texel: (j * side + i) as usize, taps })
+        .map(|(i, j)| {
+            let rim = size.normal_xy(i, j).normalize_or_zero().as_dvec2();
+            RimSource { texel: (j * side + i) as usize, taps: rim_taps(size, rim) }
         })
+        .filter(|source| !source.taps.is_empty())
         .collect()
 }
 
-/// The bilinear footprint of a rim point, without what lies off the disc. Moved inwards by quarters of a texel where
-/// nothing of it is left.
-fn rim_taps(size: TableSize, rim: glam::Vec2) -> Vec<(usize, f32)> {
-    let side = size.side();
-    let last = f64::from(side - 1);
-    for quarters in 0..=2 * side {
-        let inwards = (1.0 - quarters as f32 * 0.5 / side as f32).max(0.0);
-        let at = |xy: f32| ((f64::from(xy * inwards) + 1.0) / 2.0 * f64::from(side) - 0.5).clamp(0.0, last);
-        let (x, y) = (at(rim.x), at(rim.y));
-        let mut taps = Vec::with_capacity(4);
-        for (j, wy) in [(y.floor(), 1.0 - y.fract()), (y.floor() + 1.0, y.fract())] {
-            for (i, wx) in [(x.floor(), 1.0 - x.fract()), (x.floor() + 1.0, x.fract())] {
-                let weight = (wx * wy) as f32;
-                if weight > 1e-3 && i <= last && j <= last && size.is_on_disc(i as u32, j as u32) {
-                    taps.push(((j as u32 * side + i as u32) as usize, weight));
-                }
-            }
-        }
-        let total: f32 = taps.iter().map(|(_, weight)| weight).sum();
-        if total > 0.0 {
-            taps.iter_mut().for_each(|(_, weight)| *weight /= total);
-            return taps;
+/// A texel on the disc near a rim point.
+struct Near {
+    index: usize,
+    weight: f64,
+    /// 1, its `n_z`, and its offset along the rim in texels: what the fit is linear in.
+    terms: DVec3,
+}
+
+/// The coefficients that give the colour at a rim point. Towards the rim a reflectance is smooth in `n_z`, not in the
+/// radius, so a weighted least-squares fit, linear in `n_z` and along the rim, of the nearby texels is read at `n_z = 0`.
+fn rim_taps(size: TableSize, rim: DVec2) -> Vec<(usize, f32)> {
+    let mut near = Vec::new();
+    // Two texels around hold enough, but for tables of a few texels in all.
+    for radius in [2.0, 3.0, 4.0] {
+        near = nearby(size, rim, radius);
+        if near.len() >= 6 {
+            break;
         }
     }
-    Vec::new()
+    let mut normal = DMat3::from_diagonal(DVec3::new(0.0, 1e-4, 1e-4));
+    for Near { weight, terms, .. } in &near {
+        normal += DMat3::from_cols(*terms * terms.x, *terms * terms.y, *terms * terms.z) * *weight;
+    }
+    let total = normal.x_axis.x;
+    // Too few for a slope: their mean.
+    let row = if near.len() >= 6 { normal.inverse().x_axis } else { DVec3::X / total.max(f64::MIN_POSITIVE) };
+    near.iter().map(|texel| (texel.index, (texel.weight * row.dot(texel.terms)) as f32)).collect()
+}
+
+fn nearby(size: TableSize, rim: DVec2, radius: f64) -> Vec<Near> {
+    let side = f64::from(size.side());
+    let at = (rim + 1.0) / 2.0 * side - 0.5;
+    let range = |x: f64| {
+        let bounded = |x: f64| x.clamp(0.0, side - 1.0) as u32;
+        bounded((x - radius).ceil())..=bounded((x + radius).floor())
+    };
+    let mut near = Vec::new();
+    for j in range(at.y) {
+        for i in range(at.x) {
+            let offset = DVec2::new(f64::from(i), f64::from(j)) - at;
+            let share = 1.0 - offset.length_squared() / (radius * radius);
+            if share > 0.0 && size.is_on_disc(i, j) {
+                let n_z = (1.0 - f64::from(size.normal_xy(i, j).length_squared())).max(0.0).sqrt();
+                let terms = DVec3::new(1.0, n_z, offset.dot(rim.perp()));
+                near.push(Near { index: (j * size.side() + i) as usize, weight: share * share, terms });
+            }
+        }
+    }
+    near
 }
 
 #[cfg(test)]
@@ -201,7 +240,10 @@ mod tests {
             for (k, texel) in filled.texels.iter().enumerate() {
                 let on = size.disc()[k % size.slice_texels()];
                 assert_eq!(texel[3], if on { 1.0 } else { FILLED });
-                assert!((texel[0] - 0.25).abs() < 1e-6 && (texel[2] - 0.75).abs() < 1e-6, "{side}: {texel:?}");
+                assert!(
+                    (texel[0] - 0.25).abs() < 1e-6 && (texel[2] - 0.75).abs() < 1e-6,
+                    "{side}: {texel:?}"
+                );
             }
         }
     }

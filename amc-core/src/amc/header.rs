@@ -44,15 +44,17 @@ impl Header {
     /// Reads the JSON object; keys that are not known go to [`Metadata::other`].
     pub(crate) fn from_json(mut map: Map<String, Value>) -> Result<Self> {
         let mut take = |key: &str| {
-            map.remove(key).ok_or_else(|| Error::malformed(format!("the key `{key}` is missing")).at_element(key))
+            map.remove(key)
+                .ok_or_else(|| Error::malformed(format!("the key `{key}` is missing")).at_element(key))
         };
         let [version, symmetry, azimuth, frame] =
             [take("version")?, take("symmetry")?, take("azimuth")?, take("frame")?];
         match version.as_u64() {
             Some(1..=VERSION) => {}
             Some(later) if later > VERSION => {
-                let message =
-                    format!("version {later} was written by a later program; this one reads version {VERSION}");
+                let message = format!(
+                    "version {later} was written by a later program; this one reads version {VERSION}"
+                );
                 return Err(Error::unsupported(message).at_element("version"));
             }
             _ => return Err(Error::malformed(format!("{version} is no version")).at_element("version")),

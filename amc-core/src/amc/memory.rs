@@ -1,9 +1,12 @@
 //! What a table takes.
 
+use serde::Serialize;
+
 use super::{Amc, TableSize, TexelFormat};
+use crate::{Error, Result};
 
 /// Bytes a table takes in its several forms. (The paper's figures for 256 x 256 x 512 are half of what they should be.)
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Memory {
     /// The colours alone, three channels: how the paper counts (section 4.1).
     pub colours: u64,
@@ -14,9 +17,31 @@ pub struct Memory {
 }
 
 impl TableSize {
+    /// The most bytes of texels that a table may have to be read, written or baked: 2 GiB, as 1024 x 1024 x 256 half
+    /// floats take.
+    pub const MOST_BYTES: u64 = 2 << 30;
+
+    /// Checks the size of a table that is about to be made.
+    ///
+    /// # Errors
+    /// Its texels are over [`TableSize::MOST_BYTES`].
+    pub fn check_bytes(self, format: TexelFormat) -> Result<()> {
+        let bytes = self.memory(format).texture;
+        if bytes <= Self::MOST_BYTES {
+            return Ok(());
+        }
+        Err(Error::too_large(format!(
+            "a table of {} x {} x {} texels takes {bytes} bytes; the limit is {}",
+            self.side(),
+            self.side(),
+            self.slices(),
+            Self::MOST_BYTES
+        )))
+    }
+
     /// What a table of this size takes.
     pub fn memory(self, format: TexelFormat) -> Memory {
-        let texels = self.texels() as u64;
+        let texels = u64::from(self.side()).pow(2) * u64::from(self.slices());
         let channel = format.bytes() as u64 / 4;
         let blocks = u64::from(self.side().div_ceil(4));
         Memory {

@@ -8,23 +8,24 @@ mod fold;
 mod header;
 mod isotropic;
 mod ktx2;
-mod texel_format;
 mod memory;
 mod metadata;
 mod resample;
+mod summary;
 mod table;
 #[cfg(test)]
 mod tests;
+mod texel_format;
 
 pub use cyclic::{Interpolation, Taps};
 pub use fill::FILLED;
-pub(crate) use azimuth::normals;
 pub(crate) use header::{Header, parse_object};
-pub(crate) use texel_format::texel_name;
-pub use texel_format::TexelFormat;
 pub use memory::Memory;
 pub use metadata::Metadata;
+pub use summary::Summary;
 pub use table::{Amc, LinearTable, TableSize, Texels};
+pub use texel_format::TexelFormat;
+pub(crate) use texel_format::texel_name;
 
 use serde::{Deserialize, Serialize};
 

@@ -110,7 +110,8 @@ fn plane_shares(from: TableSize, to: TableSize) -> Vec<Shares> {
             let products = rows.iter().flat_map(|&(j, wy)| {
                 columns.iter().map(move |&(i, wx)| (j * from.side() as usize + i, wx * wy))
             });
-            let mut shares: Shares = products.clone().filter(|&(k, weight)| disc[k] && weight > 0.0).collect();
+            let mut shares: Shares =
+                products.clone().filter(|&(k, weight)| disc[k] && weight > 0.0).collect();
             if shares.is_empty() {
                 // Wholly off the disc, where the old table holds its rim's colours.
                 shares = products.collect();
@@ -170,7 +171,8 @@ mod tests {
 
     #[test]
     fn growing_passes_through_the_old_slices() {
-        let grown = table(4, 8, |i, _, s| [(s * 4 + i) as f32, 0.0, 0.0, 1.0]).resized(TableSize::new(4, 24).unwrap());
+        let grown = table(4, 8, |i, _, s| [(s * 4 + i) as f32, 0.0, 0.0, 1.0])
+            .resized(TableSize::new(4, 24).unwrap());
         for s in 0..8 {
             assert_eq!(grown.texel(2, 1, 3 * s)[0], (s * 4 + 2) as f32);
         }

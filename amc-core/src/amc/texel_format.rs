@@ -25,11 +25,11 @@ impl TexelFormat {
         }
     }
 
-    /// The name of the format in Vulkan, WebGPU's twin of it aside: what `inspect` shows.
+    /// The format's name in Vulkan and KTX2.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Srgb8 => "rgba8-srgb",
-            Self::Half => "rgba16-float",
+            Self::Srgb8 => "R8G8B8A8_SRGB",
+            Self::Half => "R16G16B16A16_SFLOAT",
         }
     }
 }
@@ -49,7 +49,8 @@ impl Amc {
             TexelFormat::Srgb8 => f32::MAX,
             TexelFormat::Half => half::f16::MAX.to_f32(),
         };
-        if let Some(k) = table.texels.iter().position(|texel| !texel.iter().all(|value| value.abs() <= limit)) {
+        if let Some(k) = table.texels.iter().position(|texel| !texel.iter().all(|value| value.abs() <= limit))
+        {
             return Err(Error::invalid(format!("the colour {:?} cannot be stored", table.texels[k]))
                 .at_element(texel_name(table.size, k)));
         }

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::sheet::{self, Sheet};
 use super::{Form, Kind, Source};
 use crate::amc::{Amc, Header, TableSize, Texels, parse_object};
+use crate::image::decode::MOST_PIXELS;
 use crate::{Error, Result, file};
 
 const KEY: &str = "amc";
@@ -73,10 +74,12 @@ impl Layout {
 }
 
 fn read(bytes: &[u8]) -> Result<Amc> {
-    let json = sheet::text(bytes, KEY)
-        .ok_or_else(|| Error::unsupported("no slice atlas: it has no text `amc` that says how the slices stand"))?;
+    let json = sheet::text(bytes, KEY).ok_or_else(|| {
+        Error::unsupported("no slice atlas: it has no text `amc` that says how the slices stand")
+    })?;
     let mut map = parse_object(json.as_bytes(), "the text `amc`")?;
-    let layout = map.remove("atlas").ok_or_else(|| Error::malformed("the key is missing").at_element("atlas"))?;
+    let layout =
+        map.remove("atlas").ok_or_else(|| Error::malformed("the key is missing").at_element("atlas"))?;
     let layout: Layout = serde_json::from_value(layout)
         .map_err(|error| Error::malformed(error.to_string()).at_element("atlas"))?;
     let header = Header::from_json(map)?;
@@ -105,6 +108,12 @@ fn read(bytes: &[u8]) -> Result<Amc> {
 fn write(amc: &Amc, path: &Path) -> Result<Vec<String>> {
     let (texels, lost) = sheet::texels_for(amc, path)?;
     let layout = Layout::of(amc.size());
+    let pixels = u64::from(layout.width()) * u64::from(layout.height());
+    if pixels > MOST_PIXELS {
+        return Err(Error::too_large(format!(
+            "an atlas of {pixels} pixels; {MOST_PIXELS} can be read back: write a folder of slices"
+        )));
+    }
     let texels = match &texels {
         Texels::Srgb8(texels) => Texels::Srgb8(layout.arrange(texels)),
         Texels::Half(texels) => Texels::Half(layout.arrange(texels)),
@@ -112,7 +121,7 @@ fn write(amc: &Amc, path: &Path) -> Result<Vec<String>> {
     let mut json = Header::of(amc).to_json()?;
     let described = serde_json::to_value(layout).map_err(|error| Error::invalid(error.to_string()))?;
     json.insert("atlas".into(), described);
-    let json = serde_json::Value::Object(json).to_string();
+    let json = sheet::ascii(&serde_json::Value::Object(json).to_string());
     let sheet = Sheet { width: layout.width(), height: layout.height(), texels };
     file::save_bytes(path, &sheet.encode(&[(KEY, &json)])?)?;
     Ok(lost)

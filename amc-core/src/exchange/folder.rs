@@ -5,7 +5,7 @@ use std::path::{Component, Path};
 
 use super::sheet::Sheet;
 use super::{Form, Kind, MOST_BYTES, Source};
-use crate::amc::{Amc, Header, TableSize, Texels, parse_object};
+use crate::amc::{Amc, Header, TableSize, TexelFormat, Texels, parse_object};
 use crate::{Error, Result, file};
 
 const LIST: &str = "slices.json";
@@ -35,7 +35,7 @@ fn read(folder: &Path) -> Result<Amc> {
         let sheet = sheet.map_err(|error| error.in_file(&path))?;
         let expected = match size {
             Some(size) => size,
-            None => *size.insert(TableSize::new(sheet.width, slices).map_err(|error| error.in_file(&path))?),
+            None => *size.insert(size_of(&sheet, slices).map_err(|error| error.in_file(&path))?),
         };
         let side = expected.side();
         if (sheet.width, sheet.height) != (side, side) {
@@ -50,9 +50,20 @@ fn read(folder: &Path) -> Result<Amc> {
     }
 }
 
+/// The size that the first slice sets.
+fn size_of(sheet: &Sheet, slices: u32) -> Result<TableSize> {
+    let size = TableSize::new(sheet.width, slices)?;
+    size.check_bytes(match sheet.texels {
+        Texels::Srgb8(_) => TexelFormat::Srgb8,
+        Texels::Half(_) => TexelFormat::Half,
+    })?;
+    Ok(size)
+}
+
 fn parse(json: &[u8]) -> Result<(Header, Vec<String>)> {
     let mut map = parse_object(json, "the list of slices")?;
-    let names = map.remove("slices").ok_or_else(|| Error::malformed("the key is missing").at_element("slices"))?;
+    let names =
+        map.remove("slices").ok_or_else(|| Error::malformed("the key is missing").at_element("slices"))?;
     let names: Vec<String> = serde_json::from_value(names)
         .map_err(|error| Error::malformed(error.to_string()).at_element("slices"))?;
     for (k, name) in names.iter().enumerate() {
@@ -71,7 +82,9 @@ fn append(texels: &mut Option<Texels>, sheet: Sheet, side: usize) -> Result<()> 
     match (texels, sheet.texels) {
         (Some(Texels::Srgb8(all)), Texels::Srgb8(slice)) => all.extend(upwards(&slice, side)),
         (Some(Texels::Half(all)), Texels::Half(slice)) => all.extend(upwards(&slice, side)),
-        (texels @ None, Texels::Srgb8(slice)) => *texels = Some(Texels::Srgb8(upwards(&slice, side).collect())),
+        (texels @ None, Texels::Srgb8(slice)) => {
+            *texels = Some(Texels::Srgb8(upwards(&slice, side).collect()))
+        }
         (texels @ None, Texels::Half(slice)) => *texels = Some(Texels::Half(upwards(&slice, side).collect())),
         (Some(_), _) => return Err(Error::unsupported("the slices are not all of one depth")),
     }

@@ -14,7 +14,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::amc::Amc;
+use crate::amc::{Amc, TableSize};
 use crate::{Error, Result, file};
 
 /// What a file or folder holds.
@@ -29,6 +29,21 @@ pub enum Kind {
     Slices,
     /// An ordinary MatCap: a picture of a ball.
     MatCap,
+}
+
+impl std::str::FromStr for Kind {
+    type Err = Error;
+
+    /// By its name on the command line: `amc`, `atlas`, `slices`, `matcap`.
+    fn from_str(name: &str) -> Result<Self> {
+        Ok(match name {
+            "amc" => Self::Amc,
+            "atlas" => Self::Atlas,
+            "slices" => Self::Slices,
+            "matcap" => Self::MatCap,
+            _ => return Err(Error::invalid(format!("{name:?} is none of amc, atlas, slices, matcap"))),
+        })
+    }
 }
 
 /// What is read and written, where names and contents do not say it.
@@ -74,7 +89,7 @@ struct Form {
 const FORMS: [Form; 4] = [ktx2::FORM, folder::FORM, atlas::FORM, matcap::FORM];
 
 /// Files larger than this are not read: a table of 2 GiB with room to spare.
-const MOST_BYTES: u64 = (2 << 30) + (64 << 20);
+const MOST_BYTES: u64 = TableSize::MOST_BYTES + (64 << 20);
 
 /// Converts `input` to `output`.
 ///
@@ -104,7 +119,8 @@ pub fn read(input: &Path) -> Result<Amc> {
 }
 
 fn read_as(input: &Path, kind: Option<Kind>) -> Result<(Kind, Amc)> {
-    let source = if input.is_dir() { Source::Folder(input) } else { Source::File(file::read(input, MOST_BYTES)?) };
+    let source =
+        if input.is_dir() { Source::Folder(input) } else { Source::File(file::read(input, MOST_BYTES)?) };
     let form = match kind {
         Some(kind) => form(kind),
         None => FORMS.iter().find(|form| (form.is)(&source)).ok_or_else(|| {
@@ -139,7 +155,8 @@ fn form_of_name(output: &Path) -> Result<&'static Form> {
     if output.extension().is_none() {
         return Ok(form(Kind::Slices));
     }
-    let known: Vec<String> = FORMS.iter().map(|form| format!("{}: {}", form.name, form.ends.join(" "))).collect();
+    let known: Vec<String> =
+        FORMS.iter().map(|form| format!("{}: {}", form.name, form.ends.join(" "))).collect();
     Err(Error::unsupported(format!(
         "the name does not say what to write ({}; no suffix: a folder of slices)",
         known.iter().filter(|line| !line.ends_with(": ")).cloned().collect::<Vec<_>>().join("; ")

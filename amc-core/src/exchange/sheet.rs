@@ -1,6 +1,7 @@
 //! A picture whose pixels are texels: how slices are written to PNG and OpenEXR, and read again, exactly.
 
 use std::io::Cursor;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use exr::image::{AnyChannel, FlatSamples};
@@ -77,7 +78,21 @@ fn rgba8(samples: &[u8], channels: u32) -> Vec<[u8; 4]> {
 /// the colours were decoded.
 fn read_measured(bytes: &[u8], width: u32, height: u32, texels: &mut [[f16; 4]]) -> Result<()> {
     let (width, height) = (width as usize, height as usize);
-    let read = exr::image::read::read()
+    let broken = |what: String| Error::malformed(format!("broken OpenEXR: {what}"));
+    let values = guarded(|| measured_values(bytes, width))
+        .ok_or_else(|| broken("beyond what the decoder can tell".to_owned()))?
+        .map_err(|error| broken(error.to_string()))?;
+    if values.len() != width * height {
+        return Err(Error::unsupported("an OpenEXR whose layer is not the whole picture"));
+    }
+    for (texel, value) in texels.iter_mut().zip(values).filter(|(_, value)| value.is_finite()) {
+        texel[3] = value;
+    }
+    Ok(())
+}
+
+fn measured_values(bytes: &[u8], width: usize) -> exr::error::Result<Vec<f16>> {
+    let image = exr::image::read::read()
         .no_deep_data()
         .largest_resolution_level()
         .specific_channels()
@@ -93,25 +108,22 @@ fn read_measured(bytes: &[u8], width: u32, height: u32, texels: &mut [[f16; 4]])
         .first_valid_layer()
         .all_attributes()
         .non_parallel()
-        .from_buffered(Cursor::new(bytes));
-    let image = read.map_err(|error| Error::malformed(format!("broken OpenEXR: {error}")))?;
-    let values = image.layer_data.channel_data.pixels;
-    if values.len() != width * height {
-        return Err(Error::unsupported("an OpenEXR whose layer is not the whole picture"));
-    }
-    for (texel, value) in texels.iter_mut().zip(values).filter(|(_, value)| value.is_finite()) {
-        texel[3] = value;
-    }
-    Ok(())
+        .from_buffered(Cursor::new(bytes))?;
+    Ok(image.layer_data.channel_data.pixels)
 }
 
 /// The text of this name in a PNG's text chunks or an OpenEXR's attributes; `None` where there is none, or no such file.
 pub(super) fn text(bytes: &[u8], name: &str) -> Option<String> {
     match Format::of(bytes)? {
-        Format::Png => png_text(bytes, name),
-        Format::Exr => exr_text(bytes, name),
+        Format::Png => guarded(|| png_text(bytes, name)).flatten(),
+        Format::Exr => guarded(|| exr_text(bytes, name)).flatten(),
         Format::Jpeg => None,
     }
+}
+
+/// Runs other people's decoder; should it panic on a broken file, there is no answer.
+fn guarded<T>(decoder: impl FnOnce() -> T) -> Option<T> {
+    catch_unwind(AssertUnwindSafe(decoder)).ok()
 }
 
 fn png_text(bytes: &[u8], name: &str) -> Option<String> {
@@ -127,13 +139,28 @@ fn png_text(bytes: &[u8], name: &str) -> Option<String> {
 
 fn exr_text(bytes: &[u8], name: &str) -> Option<String> {
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).ok()?;
-    let attributes = meta.headers.iter().flat_map(|header| {
-        header.own_attributes.other.iter().chain(&header.shared_attributes.other)
-    });
-    attributes.filter(|(key, _)| key.to_string() == name).find_map(|(_, value)| match value {
+    let attributes = meta
+        .headers
+        .iter()
+        .flat_map(|header| header.own_attributes.other.iter().chain(&header.shared_attributes.other));
+    attributes.filter(|(key, _)| **key == *name).find_map(|(_, value)| match value {
         AttributeValue::Text(text) => Some(text.to_string()),
         _ => None,
     })
+}
+
+/// JSON with every letter beyond ASCII escaped: plain text chunks and OpenEXR's attributes hold no others.
+pub(super) fn ascii(json: &str) -> String {
+    let mut escaped = String::with_capacity(json.len());
+    for letter in json.chars() {
+        if letter.is_ascii() {
+            escaped.push(letter);
+        } else {
+            let mut units = [0; 2];
+            escaped.extend(letter.encode_utf16(&mut units).iter().map(|unit| format!("\\u{unit:04x}")));
+        }
+    }
+    escaped
 }
 
 /// Whether a picture's name asks for OpenEXR; PNG otherwise.

@@ -98,10 +98,14 @@ pub(crate) fn exr_of_channels(
     if width == 0 || height == 0 {
         return Err(Error::invalid("a picture without pixels cannot be written"));
     }
-    let mut attributes = LayerAttributes::default();
-    attributes.software_name = Some(Text::from("AMC Studio"));
+    let mut attributes =
+        LayerAttributes { software_name: Some(Text::from("AMC Studio")), ..LayerAttributes::default() };
     for &(name, text) in text {
-        attributes.other.insert(Text::from(name), AttributeValue::Text(Text::from(text)));
+        let latin = |text: &str| {
+            Text::new_or_none(text)
+                .ok_or_else(|| Error::invalid(format!("OpenEXR cannot hold the text {text:?}")))
+        };
+        attributes.other.insert(latin(name)?, AttributeValue::Text(latin(text)?));
     }
     let size = (width as usize, height as usize);
     let channels = AnyChannels::sort(channels.into_iter().collect());

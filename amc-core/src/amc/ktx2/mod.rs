@@ -10,14 +10,11 @@ mod write;
 
 use std::path::Path;
 
-use super::{Amc, TexelFormat};
+use super::{Amc, TableSize, TexelFormat};
 use crate::{Result, file};
 
 /// The key of our JSON.
 const KEY: &str = "amc";
-
-/// The largest table that is read, in bytes of texels: 1024 x 1024 x 256 half floats.
-const TABLE_LIMIT: u64 = 2 << 30;
 
 /// Bytes of texels that a file of any size may hold (a table of one colour packs into next to nothing); a larger table
 /// may be [`RATIO_LIMIT`] times as large as its file.
@@ -47,7 +44,7 @@ impl Amc {
     /// # Errors
     /// As [`Amc::from_ktx2`], or the file cannot be read; the error names the file.
     pub fn read(path: &Path) -> Result<Self> {
-        let bytes = file::read(path, TABLE_LIMIT + FREE_BYTES)?;
+        let bytes = file::read(path, TableSize::MOST_BYTES + FREE_BYTES)?;
         Self::from_ktx2(&bytes).map_err(|error| error.in_file(path))
     }
 

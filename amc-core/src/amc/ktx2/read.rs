@@ -4,7 +4,7 @@ use ::ktx2::{LevelIndex, SupercompressionScheme};
 use half::f16;
 
 use super::super::header::{Header, parse_object};
-use super::{KEY, TABLE_LIMIT, is_justified};
+use super::{KEY, is_justified};
 use crate::amc::{Amc, TableSize, TexelFormat, Texels, texel_name};
 use crate::{Error, Result};
 
@@ -22,7 +22,9 @@ impl Amc {
         let keys = key_values(bytes, header.index.kvd_byte_offset, header.index.kvd_byte_length)?;
         let find = |name: &str| keys.iter().find(|(key, _)| *key == name.as_bytes()).map(|(_, value)| *value);
         let json = find(KEY).ok_or_else(|| {
-            Error::unsupported("a KTX2 file, but no AMC: it has no key `amc` that says how to read its texels")
+            Error::unsupported(
+                "a KTX2 file, but no AMC: it has no key `amc` that says how to read its texels",
+            )
         })?;
         let rows_from_the_top = orientation(find("KTXorientation"))?;
         let described = Header::from_json(parse_object(trim_nul(json), "the key `amc`")?)?;
@@ -41,7 +43,8 @@ fn parse_header(bytes: &[u8]) -> Result<::ktx2::Header> {
         return Err(Error::malformed("not a KTX2 file").at_byte(0));
     }
     let header = bytes.first_chunk().ok_or_else(|| truncated("header", bytes))?;
-    ::ktx2::Header::from_bytes(header).map_err(|error| Error::malformed(format!("KTX2 header: {error}")).at_byte(12))
+    ::ktx2::Header::from_bytes(header)
+        .map_err(|error| Error::malformed(format!("KTX2 header: {error}")).at_byte(12))
 }
 
 fn truncated(what: &str, bytes: &[u8]) -> Error {
@@ -59,7 +62,7 @@ fn key_values(bytes: &[u8], offset: u32, length: u32) -> Result<Vec<(&[u8], &[u8
         let broken = |what: &str| Error::malformed(format!("key/value data: {what}")).at_byte(at as u64);
         let size = data[at..].first_chunk().map(|size| u32::from_le_bytes(*size));
         let size = size.ok_or_else(|| broken("the last pair is cut short"))? as usize;
-        let pair = data.get(at + 4..at + 4 + size).ok_or_else(|| broken("a pair is longer than the data"))?;
+        let pair = data[at + 4..].get(..size).ok_or_else(|| broken("a pair is longer than the data"))?;
         let nul = pair.iter().position(|&byte| byte == 0).ok_or_else(|| broken("a key has no end"))?;
         pairs.push((&pair[..nul], &pair[nul + 1..]));
         at = (at + 4 + size).next_multiple_of(4);
@@ -81,35 +84,34 @@ fn orientation(value: Option<&[u8]>) -> Result<bool> {
             String::from_utf8_lossy(other)
         ))
         .at_element("KTXorientation")),
-        None => {
-            Err(Error::malformed("the key is missing: which way the rows run is not known").at_element("KTXorientation"))
-        }
+        None => Err(Error::malformed("the key is missing: which way the rows run is not known")
+            .at_element("KTXorientation")),
     }
 }
 
 /// The table's size and format as the header has them.
 fn shape(header: &::ktx2::Header) -> Result<(TableSize, TexelFormat)> {
     let formats = [TexelFormat::Srgb8, TexelFormat::Half];
-    let format = formats.into_iter().find(|format| Some(format.ktx2()) == header.format).ok_or_else(|| {
-        let is = header.format.map_or("undefined or unknown".to_owned(), |format| format!("{format:?}"));
-        Error::unsupported(format!(
-            "the texel format is {is}; an AMC's is R8G8B8A8_SRGB or R16G16B16A16_SFLOAT"
-        ))
-        .at_byte(12)
-    })?;
+    let format =
+        formats.into_iter().find(|format| Some(format.ktx2()) == header.format).ok_or_else(|| {
+            let is = header.format.map_or("undefined or unknown".to_owned(), |format| format!("{format:?}"));
+            Error::unsupported(format!(
+                "the texel format is {is}; an AMC's is R8G8B8A8_SRGB or R16G16B16A16_SFLOAT"
+            ))
+            .at_byte(12)
+        })?;
     let plain = header.layer_count == 0 && header.face_count == 1 && header.level_count <= 1;
     if header.pixel_depth == 0 || !plain {
         return Err(Error::unsupported("not a single level of a 3D texture, which an AMC is").at_byte(20));
     }
     if header.pixel_width != header.pixel_height {
         let (width, height) = (header.pixel_width, header.pixel_height);
-        return Err(Error::malformed(format!("slices of {width} x {height} texels; an AMC's are square")).at_byte(20));
+        return Err(
+            Error::malformed(format!("slices of {width} x {height} texels; an AMC's are square")).at_byte(20)
+        );
     }
     let size = TableSize::new(header.pixel_width, header.pixel_depth).map_err(|error| error.at_byte(20))?;
-    let bytes = (size.texels() * format.bytes()) as u64;
-    if bytes > TABLE_LIMIT {
-        return Err(Error::too_large(format!("{bytes} bytes of texels; the limit is {TABLE_LIMIT}")).at_byte(20));
-    }
+    size.check_bytes(format).map_err(|error| error.at_byte(20))?;
     Ok((size, format))
 }
 
@@ -148,7 +150,8 @@ fn texels(bytes: &[u8], header: &::ktx2::Header, size: TableSize, format: TexelF
         .at_byte(index.byte_offset));
     }
     if !packed && level.len() != expected {
-        return Err(Error::malformed(format!("{} bytes of texels instead of {expected}", level.len())).at_byte(at_index + 8));
+        return Err(Error::malformed(format!("{} bytes of texels instead of {expected}", level.len()))
+            .at_byte(at_index + 8));
     }
     Ok(match format {
         TexelFormat::Srgb8 => Texels::Srgb8(unpack(level, packed, size, index.byte_offset)?),
@@ -163,8 +166,10 @@ fn unpack<T: bytemuck::Pod>(level: &[u8], packed: bool, size: TableSize, offset:
         bytes.copy_from_slice(level);
         return Ok(texels);
     }
-    let damaged = |what: String| Error::malformed(format!("the packed texels are damaged: {what}")).at_byte(offset);
-    let length = zstd::bulk::decompress_to_buffer(level, bytes).map_err(|error| damaged(error.to_string()))?;
+    let damaged =
+        |what: String| Error::malformed(format!("the packed texels are damaged: {what}")).at_byte(offset);
+    let length =
+        zstd::bulk::decompress_to_buffer(level, bytes).map_err(|error| damaged(error.to_string()))?;
     if length == bytes.len() {
         Ok(texels)
     } else {

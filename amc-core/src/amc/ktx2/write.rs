@@ -3,7 +3,7 @@
 use ::ktx2::{Header, Index, LevelIndex, SupercompressionScheme, dfd};
 
 use super::super::header;
-use super::{KEY, TABLE_LIMIT, is_justified};
+use super::{KEY, is_justified};
 use crate::amc::Amc;
 use crate::{Error, Result};
 
@@ -17,14 +17,9 @@ impl Amc {
     /// The table is larger than readers take (2 GiB of texels), or its metadata cannot be written.
     pub fn to_ktx2(&self) -> Result<Vec<u8>> {
         let texels = self.texels().as_bytes();
-        if texels.len() as u64 > TABLE_LIMIT {
-            return Err(Error::too_large(format!(
-                "{} bytes of texels; an AMC file holds at most {TABLE_LIMIT}",
-                texels.len()
-            )));
-        }
-        let packed =
-            zstd::bulk::compress(texels, LEVEL).map_err(|source| Error::io("cannot pack the texels", source))?;
+        self.size().check_bytes(self.format())?;
+        let packed = zstd::bulk::compress(texels, LEVEL)
+            .map_err(|source| Error::io("cannot pack the texels", source))?;
         let packed = is_justified(packed.len() as u64, texels.len() as u64).then_some(packed);
         let (descriptor, type_size) = self.descriptor()?;
         let scheme = packed.as_ref().map(|_| SupercompressionScheme::Zstandard);
