@@ -142,8 +142,8 @@ fn a_json_lists_panels_and_vertices() {
     assert_eq!((panels.len(), panels[0]["angle_deg"].as_f64()), (4, Some(30.0)));
     let vector = |value: &serde_json::Value| -> Vec3 { serde_json::from_value(value.clone()).unwrap() };
     assert!(degrees_between(vector(&panels[1]["mean_direction"]), made.vectors[49]) < 0.1);
-    // Round and round: no mean.
-    assert!(panels[3]["mean_direction"].is_null(), "{}", panels[3]["mean_direction"]);
+    // Around the ring the directions cancel; what is left is along its axis.
+    assert!(degrees_between(vector(&panels[3]["mean_direction"]), Vec3::Z) < 3.0);
     let count = panels[3]["vertices"].as_u64().unwrap() as usize;
     assert_eq!(count, garment.positions.len() - 3 * 49);
     assert_eq!(panels[3]["tangents"].as_array().unwrap().len(), count);
