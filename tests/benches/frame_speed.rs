@@ -4,6 +4,8 @@
 //! medians and the ratio per table format; exits 1 when the ratio of 8-bit sRGB is over the bar. `--gl` measures on
 //! OpenGL instead.
 
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a benchmark says what it measured")]
+
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -83,7 +85,7 @@ fn compare(gpu: &Gpu, samples: u32, format: &str, texels: &Texels, cyclic: Cycli
     });
     let ratio = amc / matcap;
     println!(
-        "{samples} samples, {format}, {cyclic:?}: AMC {amc:.2} ms, MatCap {matcap:.2} ms, ratio {ratio:.2}"
+        "samples {samples}, {format}, {cyclic:?}: AMC {amc:.2} ms, MatCap {matcap:.2} ms, ratio {ratio:.2}"
     );
     ratio
 }

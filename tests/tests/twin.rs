@@ -9,7 +9,7 @@ use amc_core::color::srgb8_from_linear;
 use amc_core::direction::{Direction, tangents};
 use amc_core::image::Picture;
 use amc_core::image::compare::Difference;
-use amc_core::mesh::{Garment, Panel, PanelFlags, Percentiles};
+use amc_core::mesh::Garment;
 use amc_core::render::gpu::{Backend, Gpu, Offscreen, Renderer};
 use amc_core::render::{
     Camera, Cloth, Cyclic, Drawing, Mode, Orientation, Perspective, Projection, Shading, View, cpu,
@@ -142,26 +142,9 @@ fn ball() -> Arc<Picture> {
 /// A shape as one panel in `fabric`, its occlusion made up.
 fn drawing(name: &str, fabric: Arc<Amc>) -> Drawing {
     let mesh = shape::mesh(name).unwrap();
-    let panel = Panel {
-        id: name.into(),
-        name: name.into(),
-        triangles: 0..mesh.triangles.len() as u32,
-        takes_fabric: true,
-        area: 1.0,
-        flags: PanelFlags::default(),
-        stretch: Percentiles::default(),
-        shear: Percentiles::default(),
-    };
-    let garment = Garment {
-        uvs: mesh.uvs.clone().unwrap(),
-        positions: mesh.positions,
-        normals: mesh.normals,
-        has_uvs: true,
-        triangles: mesh.triangles,
-        panels: vec![panel],
-        ..Garment::default()
-    };
-    let vectors = tangents(&garment, &[Direction::default()]).unwrap().vectors;
+    let garment = Garment::new(mesh).unwrap();
+    let directions = vec![Direction::default(); garment.panels.len()];
+    let vectors = tangents(&garment, &directions).unwrap().vectors;
     let occlusion: Vec<f32> = garment.positions.iter().map(|p| 0.75 + 0.25 * (5.0 * p.y).sin()).collect();
     Drawing::new(&garment, &vectors, Some(&occlusion), vec![fabric], |_| Cloth::Fabric(0)).unwrap()
 }

@@ -1,7 +1,5 @@
 //! UV islands: the connected pieces of the flat pattern.
 
-use std::borrow::Cow;
-
 use glam::{Vec2, Vec3};
 
 use super::forest::Forest;
@@ -22,7 +20,7 @@ const PIECES_COMPARED: usize = 512;
 /// triangles of parts in `whole` are joined into one island whatever their UVs.
 ///
 /// Vertices count as one where position and UV are the same, so a crease (normals doubled) does not cut. Triangles
-/// belong together when they share an edge; pieces that touch in one point only stay apart.
+/// that share a vertex belong together; pieces that touch in the UV map but not on the surface stay apart.
 pub(super) fn find(
     positions: &[Vec3],
     uvs: &[Vec2],
@@ -30,40 +28,23 @@ pub(super) fn find(
     parts: &[u32],
     whole: &[bool],
 ) -> Islands {
-    let mut count = positions.len();
-    let mut joined = Cow::Borrowed(triangles);
-    let mut forest = connect(&joined, count);
-    let pieces = Pieces::new(&mut forest, triangles, parts, count);
-    let mut changed = false;
-    if let Some(same) = join_equal(positions, uvs, &pieces) {
-        for corner in joined.to_mut().as_flattened_mut() {
-            *corner = same[*corner as usize];
+    let mut forest = connect(triangles, positions.len());
+    let pieces = Pieces::new(&mut forest, triangles, parts, positions.len());
+    let mut changed = join_equal(positions, uvs, &pieces, &mut forest);
+    if whole.contains(&true) {
+        changed = true;
+        let mut first = vec![u32::MAX; whole.len()];
+        for (triangle, &part) in triangles.iter().zip(parts).filter(|(_, part)| whole[**part as usize]) {
+            let first = &mut first[part as usize];
+            *first = (*first).min(triangle[0]);
+            forest.join(*first, triangle[0]);
         }
-        changed = true;
-    }
-    if let Some(parted) = part_pinches(&mut joined, count) {
-        count = parted;
-        changed = true;
     }
     if changed {
-        forest = connect(&joined, count);
+        let (of_triangle, count) = number(&mut forest, triangles, positions.len());
+        return Islands { of_triangle, count };
     }
-    if whole.contains(&true) {
-        let mut first = vec![u32::MAX; whole.len()];
-        for (triangle, &part) in joined.iter().zip(parts) {
-            let part = part as usize;
-            if whole[part] {
-                if first[part] == u32::MAX {
-                    first[part] = triangle[0];
-                }
-                forest.join(first[part], triangle[0]);
-            }
-        }
-    } else if !changed {
-        return Islands { of_triangle: pieces.of_triangle, count: pieces.parts.len() };
-    }
-    let (of_triangle, count) = number(&mut forest, &joined, count);
-    Islands { of_triangle, count }
+    Islands { of_triangle: pieces.of_triangle, count: pieces.parts.len() }
 }
 
 fn connect(triangles: &[[u32; 3]], count: usize) -> Forest {
@@ -117,10 +98,10 @@ impl Pieces {
     }
 }
 
-/// For each vertex the first vertex of its part with the same position and UV; none where no two are the same.
+/// Joins the vertices of one part with the same position and UV; whether there were any.
 ///
 /// Only pieces of one part whose boxes meet can share a vertex, and only vertices of those are compared.
-fn join_equal(positions: &[Vec3], uvs: &[Vec2], pieces: &Pieces) -> Option<Vec<u32>> {
+fn join_equal(positions: &[Vec3], uvs: &[Vec2], pieces: &Pieces, forest: &mut Forest) -> bool {
     let count = pieces.parts.len();
     let suspect = if count > PIECES_COMPARED { vec![true; count] } else { meeting_pieces(positions, uvs, pieces) };
     let compared: Vec<u32> = (0..positions.len() as u32)
@@ -132,13 +113,13 @@ fn join_equal(positions: &[Vec3], uvs: &[Vec2], pieces: &Pieces) -> Option<Vec<u
         let part = pieces.parts[pieces.of_vertex[vertex] as usize];
         [bits(x), bits(y), bits(z), bits(u), bits(v), part]
     });
-    let mut same: Vec<u32> = (0..positions.len() as u32).collect();
     let mut any = false;
-    for (k, &first) in first.iter().enumerate() {
-        any |= first as usize != k;
-        same[compared[k] as usize] = compared[first as usize];
+    for (&vertex, &first) in compared.iter().zip(&first) {
+        let first = compared[first as usize];
+        any |= first != vertex;
+        forest.join(first, vertex);
     }
-    any.then_some(same)
+    any
 }
 
 /// The pieces whose box in space and in the UV map meets that of another piece of the same part.
@@ -167,71 +148,6 @@ fn meeting_pieces(positions: &[Vec3], uvs: &[Vec2], pieces: &Pieces) -> Vec<bool
     suspect
 }
 
-/// Gives every fan of triangles at a vertex its own number, where several fans meet in the vertex without sharing
-/// an edge. Returns how many numbers there are then; none where there was nothing to part.
-///
-/// An inner vertex has each neighbour on two of its triangles: hashes of the neighbours, combined by exclusive or,
-/// leave zero. Only where they do not is the vertex on a border and looked at more closely. (Two closed fans on one
-/// vertex are not seen: the UV map would lie over itself there.)
-fn part_pinches(triangles: &mut Cow<'_, [[u32; 3]]>, count: usize) -> Option<usize> {
-    let mut remains = vec![0u32; count];
-    for &[a, b, c] in triangles.iter() {
-        let (x, y, z) = (scramble(a), scramble(b), scramble(c));
-        remains[a as usize] ^= y ^ z;
-        remains[b as usize] ^= z ^ x;
-        remains[c as usize] ^= x ^ y;
-    }
-    let mut edges = Vec::new();
-    for (t, triangle) in triangles.iter().enumerate() {
-        for c in 0..3 {
-            let vertex = triangle[c];
-            if remains[vertex as usize] != 0 {
-                edges.push((vertex, triangle[(c + 1) % 3], t as u32));
-                edges.push((vertex, triangle[(c + 2) % 3], t as u32));
-            }
-        }
-    }
-    edges.sort_unstable();
-    let mut next = count;
-    for at_vertex in edges.chunk_by(|a, b| a.0 == b.0) {
-        // Triangles take the place they have here among those of the vertex.
-        let mut around: Vec<u32> = at_vertex.iter().map(|edge| edge.2).collect();
-        around.sort_unstable();
-        around.dedup();
-        let place = |t: u32| around.partition_point(|&other| other < t) as u32;
-        let mut fans = Forest::new(around.len());
-        for pair in at_vertex.windows(2) {
-            if pair[0].1 == pair[1].1 {
-                fans.join(place(pair[0].2), place(pair[1].2));
-            }
-        }
-        let roots = fans.into_roots();
-        let mut number_of = vec![None; around.len()];
-        number_of[0] = Some(at_vertex[0].0);
-        for (place, &t) in around.iter().enumerate() {
-            let number = *number_of[roots[place] as usize].get_or_insert_with(|| {
-                next += 1;
-                (next - 1) as u32
-            });
-            if number != at_vertex[0].0 {
-                for corner in triangles.to_mut()[t as usize].iter_mut().filter(|corner| **corner == at_vertex[0].0) {
-                    *corner = number;
-                }
-            }
-        }
-    }
-    (next > count).then_some(next)
-}
-
-/// The finaliser of MurmurHash3 (Appleby): a bijection.
-fn scramble(mut x: u32) -> u32 {
-    x ^= x >> 16;
-    x = x.wrapping_mul(0x85EB_CA6B);
-    x ^= x >> 13;
-    x = x.wrapping_mul(0xC2B2_AE35);
-    x ^ (x >> 16)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -249,32 +165,18 @@ mod tests {
     }
 
     #[test]
-    fn pieces_that_touch_in_a_point_stay_apart_whether_or_not_they_share_the_vertex() {
+    fn pieces_that_share_a_corner_are_one_island() {
         let uvs = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [2.0, 1.0], [2.0, 2.0], [1.0, 1.0]];
-        assert_eq!(islands(&uvs, &[[0, 1, 2], [2, 3, 4]]), [0, 1]);
-        assert_eq!(islands(&uvs, &[[0, 1, 2], [5, 3, 4]]), [0, 1]);
+        assert_eq!(islands(&uvs, &[[0, 1, 2], [2, 3, 4]]), [0, 0]);
+        assert_eq!(islands(&uvs, &[[0, 1, 2], [5, 3, 4]]), [0, 0]);
     }
 
     #[test]
-    fn a_hole_whose_border_touches_the_outline_does_not_cut() {
-        // A ring of squares around a hole, all corners of the hole being inner or border vertices of one island.
-        let mut uvs = Vec::new();
-        for y in 0..4 {
-            for x in 0..4 {
-                uvs.push([x as f32, y as f32]);
-            }
-        }
-        let mut triangles = Vec::new();
-        for y in 0..3u32 {
-            for x in 0..3u32 {
-                if (x, y) != (1, 1) && (x, y) != (0, 0) {
-                    let a = y * 4 + x;
-                    triangles.extend([[a, a + 1, a + 5], [a, a + 5, a + 4]]);
-                }
-            }
-        }
-        // Vertex 5 is where the missing corner and the hole touch: two fans, one island around the other side.
-        assert_eq!(islands(&uvs, &triangles), [0; 14]);
+    fn pieces_that_touch_in_the_uv_map_only_stay_apart() {
+        let uvs = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::ONE, Vec2::new(2.0, 1.0), Vec2::splat(2.0)];
+        let positions: Vec<Vec3> = uvs.iter().enumerate().map(|(i, uv)| uv.extend(f32::from(i > 2))).collect();
+        let found = find(&positions, &uvs, &[[0, 1, 2], [3, 4, 5]], &[0, 0], &[false]);
+        assert_eq!(found.of_triangle, [0, 1]);
     }
 
     #[test]

@@ -82,9 +82,8 @@ pub struct Percentiles {
 impl Garment {
     /// Cuts a mesh into panels.
     ///
-    /// A panel is a UV island of one part: triangles that share edges whose ends have the same position and UV, so a
-    /// crease in the normals does not cut, and islands that touch in one point only stay apart. A part without UVs is
-    /// one panel. Vertices are doubled where triangles of different panels or UV orientations use them, and left out
+    /// A panel is a UV island of one part: triangles connected by vertices, which count as one where position and UV
+    /// are the same, so a crease in the normals does not cut. A part without UVs is one panel. Vertices are doubled where triangles of different panels or UV orientations use them, and left out
     /// where none does; triangles without UV area go with their neighbours.
     ///
     /// # Errors

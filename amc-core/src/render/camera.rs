@@ -201,7 +201,7 @@ impl View {
     /// nearer than a thousandth of the farthest.
     ///
     /// # Errors
-    /// No vertices, or not finite; a picture that is empty or over the limits of [`View`].
+    /// No vertices, or not finite; a picture that is empty or over the limits of [`View`]; a camera that is not rigid.
     pub fn with_camera(
         camera: &Camera,
         orientation: Orientation,
@@ -211,6 +211,7 @@ impl View {
     ) -> Result<Self> {
         check_size(width, height)?;
         check_positions(positions)?;
+        check_rigid(&camera.world_to_view)?;
         let object_to_view = camera.world_to_view * DMat4::from_mat3(orientation.rotation());
         let seen = Bounds::of(positions.iter().map(|p| object_to_view.transform_point3(p.as_dvec3())));
         let (near, far) = depths(camera.projection, -seen.high.z, -seen.low.z);

@@ -301,7 +301,7 @@ fn put(plain: &mut Vec<u8>, text: std::fmt::Arguments<'_>) {
 fn parts(names: &[Names]) -> Vec<Part> {
     fn short(names: &Names) -> &str {
         let candidates = [&names.group, &names.object, &names.material];
-        candidates.into_iter().find(|name| !name.is_empty()).map_or("mesh", |name| name)
+        candidates.into_iter().find(|name| !name.is_empty()).map_or("panel", |name| name)
     }
     let mut uses: HashMap<&str, usize> = HashMap::new();
     for names in names {

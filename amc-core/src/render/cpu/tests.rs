@@ -215,6 +215,17 @@ fn ground_that_runs_on_behind_the_eye_ends_at_the_near_plane_and_keeps_its_uvs()
 }
 
 #[test]
+fn a_sheet_far_larger_than_the_picture_is_clipped_without_a_gap() {
+    let view = orthographic(64, 48);
+    // 4000 pictures wide, turned by 20 degrees.
+    let (a, b) = (Vec3::new(940.0, 342.0, 0.0) * 8.0, Vec3::new(-342.0, 940.0, 0.0) * 8.0);
+    let picture = draw(&sheet(-(a + b) * 0.4, a, b, Vec3::Z, Vec3::X, None), &view, &plainly(Mode::Uv));
+    for pixel in picture.pixels() {
+        assert_close(*pixel, [linear_from_srgb(0.4), linear_from_srgb(0.4), pixel[2], 1.0], 1e-3);
+    }
+}
+
+#[test]
 fn the_nearest_is_seen_whatever_the_order_and_the_first_of_equals() {
     let quad = |z: f32, uv: f32| {
         let corners = [(-20.0, -2.0), (20.0, -2.0), (20.0, 2.0), (-20.0, 2.0)];

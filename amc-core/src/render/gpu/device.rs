@@ -33,11 +33,9 @@ impl Gpu {
     /// [`crate::ErrorKind::Device`]: there is no adapter, or it gives no device.
     pub fn headless(backend: Backend) -> Result<Self> {
         match backend {
-            Backend::Vulkan => Self::open(wgpu::Backends::VULKAN),
-            Backend::Gl => Self::open(wgpu::Backends::GL),
-            Backend::Auto => Self::open(wgpu::Backends::VULKAN).or_else(|vulkan| {
-                Self::open(wgpu::Backends::GL).map_err(|opengl| Error::device(format!("{vulkan}; {opengl}")))
-            }),
+            Backend::Vulkan => open(adapter(wgpu::Backends::VULKAN)?),
+            Backend::Gl => open(adapter(wgpu::Backends::GL)?),
+            Backend::Auto => open(best_adapter()?),
         }
     }
 
@@ -46,35 +44,52 @@ impl Gpu {
         let info = self.device.adapter_info();
         format!("{} ({}, {} {})", info.name, info.backend, info.driver, info.driver_info)
     }
+}
 
-    fn open(backends: wgpu::Backends) -> Result<Self> {
-        let interface = if backends == wgpu::Backends::VULKAN { "Vulkan" } else { "OpenGL" };
-        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
-        descriptor.backends = backends;
-        let instance = wgpu::Instance::new(descriptor);
-        let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
-            .map_err(|error| {
-            Error::device(format!(
-                "there is no {interface} adapter; install a graphics driver (in software: Mesa)"
-            ))
-            .because(error)
-        })?;
-        let limits = wgpu::Limits {
-            max_buffer_size: adapter.limits().max_buffer_size,
-            ..wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits())
-        };
-        let descriptor = wgpu::DeviceDescriptor {
-            label: Some("amc"),
-            required_limits: limits,
-            ..wgpu::DeviceDescriptor::default()
-        };
-        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).map_err(|error| {
-            Error::device(format!("the {interface} adapter gives no device: {error}")).because(error)
-        })?;
-        // The default is a panic. What is checked here is checked in error scopes; this is for the rest.
-        device.on_uncaptured_error(Arc::new(|error| log::error!("graphics device: {error}")));
-        Ok(Self { device, queue })
+/// Vulkan before OpenGL, but a real device before one in software.
+fn best_adapter() -> Result<wgpu::Adapter> {
+    let in_software = |adapter: &wgpu::Adapter| adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+    let vulkan = adapter(wgpu::Backends::VULKAN);
+    if vulkan.as_ref().is_ok_and(|found| !in_software(found)) {
+        return vulkan;
     }
+    match (vulkan, adapter(wgpu::Backends::GL)) {
+        (Ok(_), Ok(gl)) if !in_software(&gl) => Ok(gl),
+        (Ok(found), _) | (Err(_), Ok(found)) => Ok(found),
+        (Err(vulkan), Err(gl)) => Err(Error::device(format!("{vulkan}; {gl}"))),
+    }
+}
+
+fn adapter(backends: wgpu::Backends) -> Result<wgpu::Adapter> {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = backends;
+    let instance = wgpu::Instance::new(descriptor);
+    pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).map_err(|error| {
+        let interface = if backends == wgpu::Backends::VULKAN { "Vulkan" } else { "OpenGL" };
+        Error::device(format!(
+            "there is no {interface} adapter; install a graphics driver (in software: Mesa)"
+        ))
+        .because(error)
+    })
+}
+
+fn open(adapter: wgpu::Adapter) -> Result<Gpu> {
+    let limits = wgpu::Limits {
+        max_buffer_size: adapter.limits().max_buffer_size,
+        ..wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits())
+    };
+    let descriptor = wgpu::DeviceDescriptor {
+        label: Some("amc"),
+        required_limits: limits,
+        ..wgpu::DeviceDescriptor::default()
+    };
+    let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).map_err(|error| {
+        let info = adapter.get_info();
+        Error::device(format!("{} ({}) gives no device: {error}", info.name, info.backend)).because(error)
+    })?;
+    // The default is a panic. What is checked here is checked in error scopes; this is for the rest.
+    device.on_uncaptured_error(Arc::new(|error| log::error!("graphics device: {error}")));
+    Ok(Gpu { device, queue })
 }
 
 /// What `make` gives, unless the device finds fault with it.

@@ -171,8 +171,11 @@ impl Offscreen {
             buffer
         })?;
         let aligned = read(gpu, &buffer)?;
-        let rows = aligned.chunks_exact(aligned_row_bytes as usize);
-        Ok(rows.flat_map(|row| row.iter().take(row_bytes as usize)).copied().collect())
+        let mut bytes = Vec::with_capacity(row_bytes as usize * self.height as usize);
+        for row in aligned.chunks_exact(aligned_row_bytes as usize) {
+            bytes.extend_from_slice(&row[..row_bytes as usize]);
+        }
+        Ok(bytes)
     }
 }
 

@@ -319,7 +319,7 @@ fn a_target_without_srgb_gets_encoded_values(gpu: &Gpu) {
     let frame = renderer.draw_data(&mut scene, &eye, &view, &shading(Mode::Amc), target).unwrap();
     let bytes = offscreen.bytes(gpu, &frame, None).unwrap();
     let middle = &bytes[(2 * 64 + 32) * 4..][..4];
-    let expected = [0.5f32, 0.25, 1.0].map(|linear| crate::color::srgb8_from_linear(linear));
+    let expected = [0.5f32, 0.25, 1.0].map(crate::color::srgb8_from_linear);
     assert_eq!(middle[..3], expected);
 }
 
