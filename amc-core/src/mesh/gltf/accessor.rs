@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 
 use gltf::Accessor;
-use gltf::accessor::{DataType, Dimensions};
 use gltf::accessor::sparse::IndexType;
+use gltf::accessor::{DataType, Dimensions};
 
 use crate::{Error, Result};
 
@@ -27,7 +27,8 @@ impl<'b> Items<'b> {
         if stride < size {
             return Err(Error::malformed(format!("a stride of {stride} bytes for items of {size}")));
         }
-        let outside = || Error::malformed(format!("{count} items reach past the end of buffer view {}", view.index()));
+        let outside =
+            || Error::malformed(format!("{count} items reach past the end of buffer view {}", view.index()));
         let buffer = buffers.get(view.buffer().index()).ok_or_else(outside)?;
         let end = view.offset().checked_add(view.length()).ok_or_else(outside)?;
         let view_bytes = buffer.get(view.offset()..end).ok_or_else(outside)?;
@@ -48,7 +49,10 @@ impl<'b> Items<'b> {
 }
 
 /// Vectors of `N` floats: 32-bit, or 8 and 16-bit integers, normalised where the accessor says so.
-pub(super) fn vectors<const N: usize>(accessor: &Accessor<'_>, buffers: &[Cow<'_, [u8]>]) -> Result<Vec<[f32; N]>> {
+pub(super) fn vectors<const N: usize>(
+    accessor: &Accessor<'_>,
+    buffers: &[Cow<'_, [u8]>],
+) -> Result<Vec<[f32; N]>> {
     let wanted = match N {
         2 => Dimensions::Vec2,
         _ => Dimensions::Vec3,
@@ -63,12 +67,16 @@ pub(super) fn vectors<const N: usize>(accessor: &Accessor<'_>, buffers: &[Cow<'_
         (DataType::U8, false) => read(accessor, buffers, |[b]: [u8; 1]| f32::from(b)),
         (DataType::I16, false) => read(accessor, buffers, |b: [u8; 2]| f32::from(i16::from_le_bytes(b))),
         (DataType::U16, false) => read(accessor, buffers, |b: [u8; 2]| f32::from(u16::from_le_bytes(b))),
-        (DataType::I8, true) => read(accessor, buffers, |[b]: [u8; 1]| (f32::from(b as i8) / 127.0).max(-1.0)),
+        (DataType::I8, true) => {
+            read(accessor, buffers, |[b]: [u8; 1]| (f32::from(b as i8) / 127.0).max(-1.0))
+        }
         (DataType::U8, true) => read(accessor, buffers, |[b]: [u8; 1]| f32::from(b) / 255.0),
         (DataType::I16, true) => {
             read(accessor, buffers, |b: [u8; 2]| (f32::from(i16::from_le_bytes(b)) / 32767.0).max(-1.0))
         }
-        (DataType::U16, true) => read(accessor, buffers, |b: [u8; 2]| f32::from(u16::from_le_bytes(b)) / 65535.0),
+        (DataType::U16, true) => {
+            read(accessor, buffers, |b: [u8; 2]| f32::from(u16::from_le_bytes(b)) / 65535.0)
+        }
         (DataType::U32, _) => Err(Error::malformed("32-bit integers where floats are needed")),
     }
 }
@@ -113,7 +121,9 @@ fn read<T: Copy + Default, const N: usize, const W: usize>(
         (None, Some(_)) if count <= buffers.iter().map(|buffer| buffer.len()).sum() => {
             vec![[T::default(); N]; count]
         }
-        (None, Some(_)) => return Err(Error::too_large(format!("{count} items, more than the file's size justifies"))),
+        (None, Some(_)) => {
+            return Err(Error::too_large(format!("{count} items, more than the file's size justifies")));
+        }
         (None, None) => return Err(Error::malformed("an accessor without a buffer view")),
     };
     if let Some(sparse) = accessor.sparse() {

@@ -30,7 +30,8 @@ pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>)> {
     }
     let word = |at: usize| {
         let four = bytes.get(at..).and_then(|rest| rest.first_chunk::<4>());
-        four.map(|four| u32::from_le_bytes(*four)).ok_or_else(|| Error::malformed("cut short").at_byte(at as u64))
+        four.map(|four| u32::from_le_bytes(*four))
+            .ok_or_else(|| Error::malformed("cut short").at_byte(at as u64))
     };
     if word(4)? != 2 {
         return Err(Error::unsupported(format!("glTF version {}, not 2", word(4)?)).at_byte(4));
@@ -65,9 +66,8 @@ pub(super) fn document(json: &[u8]) -> Result<Document> {
     if json.iter().filter(|&&byte| byte == b'{').count() > OBJECT_LIMIT {
         return Err(Error::too_large(format!("more than {OBJECT_LIMIT} JSON objects")));
     }
-    let mut root: gltf::json::Root = gltf::json::deserialize::from_slice(json).map_err(|error| {
-        Error::malformed(format!("not glTF: {error}")).because(error)
-    })?;
+    let mut root: gltf::json::Root = gltf::json::deserialize::from_slice(json)
+        .map_err(|error| Error::malformed(format!("not glTF: {error}")).because(error))?;
     // The crate refuses extensions that need nothing from it.
     for extension in std::mem::take(&mut root.extensions_required) {
         if !KNOWN_EXTENSIONS.contains(&extension.as_str()) && !extension.starts_with("KHR_materials_") {
@@ -75,6 +75,15 @@ pub(super) fn document(json: &[u8]) -> Result<Document> {
                 "requires the extension {}: save it uncompressed",
                 crate::mesh::draft::clean_name(&extension)
             )));
+        }
+    }
+    // The crate's validation looks up the positions' accessor before it checks that there is one.
+    for (m, mesh) in root.meshes.iter().enumerate() {
+        for (p, primitive) in mesh.primitives.iter().enumerate() {
+            if primitive.attributes.values().any(|accessor| accessor.value() >= root.accessors.len()) {
+                let place = format!("meshes[{m}].primitives[{p}].attributes");
+                return Err(Error::malformed("names an accessor that is not there").at_element(place));
+            }
         }
     }
     Document::from_json(root).map_err(|error| match error {
@@ -94,7 +103,9 @@ pub(super) fn buffers<'a>(
 ) -> Result<Vec<Cow<'a, [u8]>>> {
     let read = |buffer: gltf::Buffer<'_>| {
         let content = match buffer.source() {
-            Source::Bin => Cow::Borrowed(chunk.ok_or_else(|| Error::malformed("no binary chunk in the file"))?),
+            Source::Bin => {
+                Cow::Borrowed(chunk.ok_or_else(|| Error::malformed("no binary chunk in the file"))?)
+            }
             Source::Uri(uri) => Cow::Owned(match uri.strip_prefix("data:") {
                 Some(data) => decode_data(data)?,
                 None => resolve(&decode_percent(uri)?)?,
@@ -106,14 +117,18 @@ pub(super) fn buffers<'a>(
         Ok(content)
     };
     let place = |index: usize| format!("buffer {index}");
-    document.buffers().map(|buffer| {
-        let index = buffer.index();
-        read(buffer).map_err(|error| error.at_element(place(index)))
-    }).collect()
+    document
+        .buffers()
+        .map(|buffer| {
+            let index = buffer.index();
+            read(buffer).map_err(|error| error.at_element(place(index)))
+        })
+        .collect()
 }
 
 fn decode_data(data: &str) -> Result<Vec<u8>> {
-    let (_, text) = data.split_once(";base64,").ok_or_else(|| Error::unsupported("a data URI that is not base64"))?;
+    let (_, text) =
+        data.split_once(";base64,").ok_or_else(|| Error::unsupported("a data URI that is not base64"))?;
     let config = GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent);
     let decoded = GeneralPurpose::new(&base64::alphabet::STANDARD, config).decode(text);
     decoded.map_err(|error| Error::malformed(format!("not base64: {error}")).because(error))
@@ -121,7 +136,10 @@ fn decode_data(data: &str) -> Result<Vec<u8>> {
 
 fn decode_percent(uri: &str) -> Result<String> {
     if uri.contains(':') {
-        return Err(Error::unsupported(format!("refers to {}: only files beside it are read", crate::mesh::draft::clean_name(uri))));
+        return Err(Error::unsupported(format!(
+            "refers to {}: only files beside it are read",
+            crate::mesh::draft::clean_name(uri)
+        )));
     }
     let malformed = || Error::malformed("a file name that is not percent-encoded UTF-8");
     let mut bytes = Vec::with_capacity(uri.len());

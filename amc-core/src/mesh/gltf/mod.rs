@@ -36,7 +36,8 @@ pub fn parse(bytes: &[u8], resolve: Resolve<'_>) -> Result<Mesh> {
             let read = primitive::append(&mut draft, &primitive, &instance, &buffers);
             left_out += usize::from(!read.map_err(|error| error.at_element(place.clone()))?);
             if draft.positions.len().max(draft.triangles.len()) > budget {
-                return Err(Error::too_large("more copies of meshes than the file's size justifies").at_element(place));
+                return Err(Error::too_large("more copies of meshes than the file's size justifies")
+                    .at_element(place));
             }
         }
     }

@@ -38,14 +38,17 @@ pub(super) fn append(
         return Ok(false);
     }
     let named = |what: &'static str| move |error: Error| Error::new(error.kind(), format!("{what}: {error}"));
-    let accessor = primitive.get(&gltf::Semantic::Positions).ok_or_else(|| Error::malformed("no positions"))?;
+    let accessor =
+        primitive.get(&gltf::Semantic::Positions).ok_or_else(|| Error::malformed("no positions"))?;
     let positions = vectors::<3>(&accessor, buffers).map_err(named("positions"))?;
     let count = positions.len();
     let normals = primitive.get(&gltf::Semantic::Normals);
     let normals = normals.map(|a| vectors::<3>(&a, buffers)).transpose().map_err(named("normals"))?;
     let uvs = primitive.get(&gltf::Semantic::TexCoords(0));
     let uvs = uvs.map(|a| vectors::<2>(&a, buffers)).transpose().map_err(named("UVs"))?;
-    if normals.as_ref().is_some_and(|n| n.len() != count) || uvs.as_ref().is_some_and(|uvs| uvs.len() != count) {
+    if normals.as_ref().is_some_and(|n| n.len() != count)
+        || uvs.as_ref().is_some_and(|uvs| uvs.len() != count)
+    {
         return Err(Error::malformed("normals or UVs in another number than positions"));
     }
     let corners = primitive.indices().map(|a| indices(&a, buffers)).transpose().map_err(named("indices"))?;
@@ -82,7 +85,11 @@ pub(super) fn append(
         return Ok(false);
     }
     draft.file_vertices += count;
-    draft.parts.push(DraftPart { vertices: vertices..draft.positions.len(), triangles: triangles..draft.triangles.len(), ..part });
+    draft.parts.push(DraftPart {
+        vertices: vertices..draft.positions.len(),
+        triangles: triangles..draft.triangles.len(),
+        ..part
+    });
     Ok(true)
 }
 
@@ -94,7 +101,8 @@ fn append_positions(draft: &mut Draft, positions: Vec<[f32; 3]>, to_world: Mat4)
         draft.positions.extend(positions.into_iter().map(|p| to_world.transform_point3(Vec3::from(p))));
     }
     for (at, &position) in draft.positions[first..].iter().enumerate() {
-        check_position(position).map_err(|error| Error::new(error.kind(), format!("vertex {at}: {error}")))?;
+        check_position(position)
+            .map_err(|error| Error::new(error.kind(), format!("vertex {at}: {error}")))?;
     }
     Ok(())
 }
@@ -123,7 +131,9 @@ fn append_triangles(draft: &mut Draft, mode: Mode, corners: Option<Vec<u32>>, ba
     match (mode, corners.split_first()) {
         (Mode::TriangleStrip, _) => {
             let strip = corners.array_windows::<3>().enumerate();
-            draft.triangles.extend(strip.map(|(i, &[a, b, c])| shifted(if i % 2 == 0 { [a, b, c] } else { [b, a, c] })));
+            draft
+                .triangles
+                .extend(strip.map(|(i, &[a, b, c])| shifted(if i % 2 == 0 { [a, b, c] } else { [b, a, c] })));
         }
         (Mode::TriangleFan, Some((&hub, rim))) => {
             draft.triangles.extend(rim.array_windows::<2>().map(|&[a, b]| shifted([hub, a, b])));
@@ -137,12 +147,13 @@ fn append_triangles(draft: &mut Draft, mode: Mode, corners: Option<Vec<u32>>, ba
 fn describe(primitive: &gltf::Primitive<'_>, instance: &Instance<'_>) -> Part {
     let material = primitive.material();
     let node_extras = instance.node.as_ref().map(|node| node.extras());
-    let said: Vec<AmcExtras> = [Some(primitive.extras()), Some(material.extras()), Some(instance.mesh.extras()), node_extras]
-        .into_iter()
-        .flatten()
-        .map(|extras| extras.as_ref().and_then(|raw| serde_json::from_str::<Extras>(raw.get()).ok()))
-        .map(|extras| extras.unwrap_or_default().amc)
-        .collect();
+    let said: Vec<AmcExtras> =
+        [Some(primitive.extras()), Some(material.extras()), Some(instance.mesh.extras()), node_extras]
+            .into_iter()
+            .flatten()
+            .map(|extras| extras.as_ref().and_then(|raw| serde_json::from_str::<Extras>(raw.get()).ok()))
+            .map(|extras| extras.unwrap_or_default().amc)
+            .collect();
     let node_name = instance.node.as_ref().and_then(|node| node.name()).map(clean_name).unwrap_or_default();
     let mesh_name = instance.mesh.name().map(clean_name).unwrap_or_default();
     let material_name = material.name().map(clean_name).unwrap_or_default();
@@ -154,7 +165,8 @@ fn describe(primitive: &gltf::Primitive<'_>, instance: &Instance<'_>) -> Part {
         (true, true) => format!("{own} {}", primitive.index()),
     };
     let fabric = said.iter().find_map(|said| said.fabric);
-    let named_no_fabric = [&node_name, &mesh_name, &material_name].into_iter().any(|name| names_no_fabric(name));
+    let named_no_fabric =
+        [&node_name, &mesh_name, &material_name].into_iter().any(|name| names_no_fabric(name));
     Part {
         name: said.iter().find_map(|said| said.name.as_deref()).map(clean_name).unwrap_or(name),
         takes_fabric: fabric.unwrap_or(!named_no_fabric),

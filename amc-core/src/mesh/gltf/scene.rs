@@ -19,7 +19,8 @@ pub(super) struct Instance<'a> {
 /// A node that is reached twice: the hierarchy must be a tree.
 pub(super) fn instances(document: &Document) -> Result<Vec<Instance<'_>>> {
     let nodes: Vec<_> = document.nodes().collect();
-    let mut waiting: Vec<(usize, Mat4)> = match document.default_scene().or_else(|| document.scenes().next()) {
+    let mut waiting: Vec<(usize, Mat4)> = match document.default_scene().or_else(|| document.scenes().next())
+    {
         Some(scene) => scene.nodes().map(|node| (node.index(), Mat4::IDENTITY)).collect(),
         None => {
             let mut is_child = vec![false; nodes.len()];
@@ -45,7 +46,11 @@ pub(super) fn instances(document: &Document) -> Result<Vec<Instance<'_>>> {
         waiting[first..].reverse();
     }
     if nodes.is_empty() {
-        instances.extend(document.meshes().map(|mesh| Instance { mesh, node: None, to_world: Mat4::IDENTITY }));
+        instances.extend(document.meshes().map(|mesh| Instance {
+            mesh,
+            node: None,
+            to_world: Mat4::IDENTITY,
+        }));
     }
     Ok(instances)
 }
