@@ -115,7 +115,9 @@ fn turn_winding(draft: &mut Draft, findings: &[Findings]) {
         }
     }
     if !turned.is_empty() {
-        draft.notices.push(format!("the winding contradicted the normals and was turned in {}", list(&turned)));
+        draft
+            .notices
+            .push(format!("the winding contradicted the normals and was turned in {}", list(&turned)));
     }
 }
 
@@ -143,7 +145,8 @@ fn drop_without_area(draft: &mut Draft, findings: &[Findings]) -> Result<()> {
 fn complete_normals(draft: &mut Draft) {
     let given: Vec<bool> = draft.parts.iter().map(|part| part.has_normals).collect();
     let unfit = normals::make_unit(&mut draft.normals);
-    let lacking: usize = draft.parts.iter().filter(|part| !part.has_normals).map(|part| part.vertices.len()).sum();
+    let lacking: usize =
+        draft.parts.iter().filter(|part| !part.has_normals).map(|part| part.vertices.len()).sum();
     if unfit > lacking {
         let filled = normals::fill_zeros(draft);
         if filled > 0 {

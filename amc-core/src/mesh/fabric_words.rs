@@ -4,14 +4,48 @@
 ///
 /// English compounds end in what the thing is: "shirt buttons" are buttons, a "body suit" is a suit.
 const NO_FABRIC: [&str; 36] = [
-    "avatar", "body", "boot", "boots", "buckle", "buckles", "button", "buttons", "eye", "eyebrow", "eyebrows", "eyelash",
-    "eyelashes", "eyes", "face", "hair", "hand", "hands", "head", "heel", "heels", "mannequin", "nails", "rivet", "rivets",
-    "shoe", "shoes", "skin", "sole", "soles", "teeth", "tongue", "zip", "zipper", "zippers", "zips",
+    "avatar",
+    "body",
+    "boot",
+    "boots",
+    "buckle",
+    "buckles",
+    "button",
+    "buttons",
+    "eye",
+    "eyebrow",
+    "eyebrows",
+    "eyelash",
+    "eyelashes",
+    "eyes",
+    "face",
+    "hair",
+    "hand",
+    "hands",
+    "head",
+    "heel",
+    "heels",
+    "mannequin",
+    "nails",
+    "rivet",
+    "rivets",
+    "shoe",
+    "shoes",
+    "skin",
+    "sole",
+    "soles",
+    "teeth",
+    "tongue",
+    "zip",
+    "zipper",
+    "zippers",
+    "zips",
 ];
 
 /// Words at the end of a name that say nothing about what the part is.
 const FILLERS: [&str; 14] = [
-    "l", "r", "left", "right", "mesh", "mat", "material", "geo", "geometry", "shape", "obj", "object", "low", "high",
+    "l", "r", "left", "right", "mesh", "mat", "material", "geo", "geometry", "shape", "obj", "object", "low",
+    "high",
 ];
 
 /// Whether a part of this name is no cloth: its last telling word is one of a short list (body, skin, hair, eyes,
@@ -48,10 +82,14 @@ mod tests {
 
     #[test]
     fn the_last_telling_word_decides() {
-        for no_fabric in ["Body", "ShirtButtons", "button_12", "eye.L", "male body mesh", "SKIN", "Hair-Mat.001"] {
+        for no_fabric in
+            ["Body", "ShirtButtons", "button_12", "eye.L", "male body mesh", "SKIN", "Hair-Mat.001"]
+        {
             assert!(names_no_fabric(no_fabric), "{no_fabric}");
         }
-        for fabric in ["", "BodySuit", "bodysuit", "button shirt", "sleeve_left", "skin-tight top", "Material.001"] {
+        for fabric in
+            ["", "BodySuit", "bodysuit", "button shirt", "sleeve_left", "skin-tight top", "Material.001"]
+        {
             assert!(!names_no_fabric(fabric), "{fabric}");
         }
     }

@@ -168,17 +168,26 @@ mod tests {
         }
         reversed[3].0 = "Collar";
         let after = ids(&reversed);
-        assert_eq!(after, ["sleeves-".to_owned() + &before[3][8..], before[2].clone(), before[1].clone(), "collar".into()]);
+        assert_eq!(
+            after,
+            ["sleeves-".to_owned() + &before[3][8..], before[2].clone(), before[1].clone(), "collar".into()]
+        );
     }
 
     #[test]
     fn ids_differ_and_names_are_numbered_from_the_top() {
-        let panels = [("a", figures(0.1, 0.1, 0.0)), ("a", figures(0.1, 0.9, 0.0)), ("A-", figures(0.5, 0.1, 0.0)), ("?", figures(0.0, 0.0, 0.0))];
+        let panels = [
+            ("a", figures(0.1, 0.1, 0.0)),
+            ("a", figures(0.1, 0.9, 0.0)),
+            ("A-", figures(0.5, 0.1, 0.0)),
+            ("?", figures(0.0, 0.0, 0.0)),
+        ];
         let found = ids(&panels);
         let unique: std::collections::HashSet<_> = found.iter().collect();
         assert_eq!(unique.len(), 4);
         assert_eq!(found[3], "panel");
-        let nameable: Vec<_> = panels.iter().map(|(part_name, figures)| Nameable { part_name, figures }).collect();
+        let nameable: Vec<_> =
+            panels.iter().map(|(part_name, figures)| Nameable { part_name, figures }).collect();
         let names: Vec<String> = identify(&nameable).into_iter().map(|identity| identity.name).collect();
         assert_eq!(names, ["a 2", "a 1", "A-", "?"]);
     }
@@ -187,7 +196,11 @@ mod tests {
     fn a_part_named_like_a_numbered_id_gets_its_own() {
         let place = place_digits(&figures(0.5, 0.5, 0.0));
         let evil = format!("a-{place}-2");
-        let panels = [("a", figures(0.5, 0.5, 0.0)), ("a", figures(0.5, 0.5, 1.0)), (evil.as_str(), figures(0.0, 0.0, 0.0))];
+        let panels = [
+            ("a", figures(0.5, 0.5, 0.0)),
+            ("a", figures(0.5, 0.5, 1.0)),
+            (evil.as_str(), figures(0.0, 0.0, 0.0)),
+        ];
         let found = ids(&panels);
         assert_ne!(found[1], found[2]);
     }

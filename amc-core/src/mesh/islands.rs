@@ -103,7 +103,8 @@ impl Pieces {
 /// Only pieces of one part whose boxes meet can share a vertex, and only vertices of those are compared.
 fn join_equal(positions: &[Vec3], uvs: &[Vec2], pieces: &Pieces, forest: &mut Forest) -> bool {
     let count = pieces.parts.len();
-    let suspect = if count > PIECES_COMPARED { vec![true; count] } else { meeting_pieces(positions, uvs, pieces) };
+    let suspect =
+        if count > PIECES_COMPARED { vec![true; count] } else { meeting_pieces(positions, uvs, pieces) };
     let compared: Vec<u32> = (0..positions.len() as u32)
         .filter(|&vertex| suspect.get(pieces.of_vertex[vertex as usize] as usize) == Some(&true))
         .collect();
@@ -174,7 +175,8 @@ mod tests {
     #[test]
     fn pieces_that_touch_in_the_uv_map_only_stay_apart() {
         let uvs = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::ONE, Vec2::new(2.0, 1.0), Vec2::splat(2.0)];
-        let positions: Vec<Vec3> = uvs.iter().enumerate().map(|(i, uv)| uv.extend(f32::from(i > 2))).collect();
+        let positions: Vec<Vec3> =
+            uvs.iter().enumerate().map(|(i, uv)| uv.extend(f32::from(i > 2))).collect();
         let found = find(&positions, &uvs, &[[0, 1, 2], [3, 4, 5]], &[0, 0], &[false]);
         assert_eq!(found.of_triangle, [0, 1]);
     }

@@ -22,7 +22,8 @@ pub(crate) fn uv_area([a, b, c]: [Vec2; 3]) -> f32 {
     let area = ab.perp_dot(ac);
     // Each coordinate is known to half a unit in its last place.
     let rounding = f32::EPSILON * a.abs().max(b.abs()).max(c.abs()).max_element();
-    let lost = (1e-6 * (ab.length_squared() + ac.length_squared())).max(rounding * (ab.length() + ac.length()));
+    let lost =
+        (1e-6 * (ab.length_squared() + ac.length_squared())).max(rounding * (ab.length() + ac.length()));
     if area.abs() > lost && area.is_finite() { area } else { 0.0 }
 }
 
@@ -66,7 +67,12 @@ pub(super) struct Figures {
 /// Stretch is each triangle's larger singular value over the panel's mean scale, the area-weighted mean of
 /// sqrt(surface area / UV area): 1 everywhere where the pattern is only scaled. Triangles whose UVs have no area
 /// count for the area and the flag `degenerate` only.
-pub(super) fn measure(positions: &[Vec3], uvs: &[Vec2], triangles: &[[u32; 3]], range: Range<usize>) -> Figures {
+pub(super) fn measure(
+    positions: &[Vec3],
+    uvs: &[Vec2],
+    triangles: &[[u32; 3]],
+    range: Range<usize>,
+) -> Figures {
     let count = range.len();
     let (mut stretch, mut shear) = (Vec::with_capacity(count), Vec::with_capacity(count));
     let (mut area, mut mirrored, mut flat_area, mut scale) = (0.0f64, 0.0f64, 0.0f64, 0.0f64);
@@ -133,9 +139,10 @@ struct Bins {
 
 impl Bins {
     fn new(items: &[(f32, f32)]) -> Self {
-        let (low, high) = items
-            .iter()
-            .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &(value, _)| (low.min(value), high.max(value)));
+        let (low, high) =
+            items.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &(value, _)| {
+                (low.min(value), high.max(value))
+            });
         let mut bins = Self { low, high, weights: [0.0; BINS] };
         let scale = bins.scale();
         for &(value, weight) in items {
@@ -260,7 +267,12 @@ mod tests {
     fn uvs_without_area_are_degenerate() {
         let figures = grid(4, |uv| Vec3::new(uv.x, uv.y, 0.0));
         assert!(!figures.flags.degenerate);
-        let line = measure(&[Vec3::ZERO, Vec3::X, Vec3::Y], &[Vec2::ZERO, Vec2::ONE, Vec2::ONE * 2.0], &[[0, 1, 2]], 0..1);
+        let line = measure(
+            &[Vec3::ZERO, Vec3::X, Vec3::Y],
+            &[Vec2::ZERO, Vec2::ONE, Vec2::ONE * 2.0],
+            &[[0, 1, 2]],
+            0..1,
+        );
         assert!(line.flags.degenerate && line.area == 0.5 && line.stretch == Percentiles::default());
     }
 
@@ -272,7 +284,8 @@ mod tests {
             (state >> 8) as f32 / (1 << 24) as f32
         };
         for outlier in [1.0, 1e6, 1e30] {
-            let mut items: Vec<(f32, f32)> = (0..20_000).map(|_| (random().powi(3), 0.1 + random())).collect();
+            let mut items: Vec<(f32, f32)> =
+                (0..20_000).map(|_| (random().powi(3), 0.1 + random())).collect();
             items[77].0 = outlier;
             let found = percentiles(&items);
             items.sort_by(|a, b| a.0.total_cmp(&b.0));

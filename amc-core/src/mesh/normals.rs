@@ -42,7 +42,8 @@ fn direction(v: Vec3) -> Vec3 {
 pub(super) fn fill_zeros(draft: &mut Draft) -> usize {
     let mut filled = 0;
     for part in draft.parts.iter().filter(|part| part.has_normals) {
-        let zeros: Vec<bool> = draft.normals[part.vertices.clone()].iter().map(|&n| n == Vec3::ZERO).collect();
+        let zeros: Vec<bool> =
+            draft.normals[part.vertices.clone()].iter().map(|&n| n == Vec3::ZERO).collect();
         if !zeros.contains(&true) {
             continue;
         }
@@ -212,7 +213,11 @@ mod tests {
             for j in 0..=sides {
                 // The last column repeats the first, as at a UV seam.
                 let azimuth = std::f32::consts::TAU * (j % sides) as f32 / sides as f32;
-                positions.push(Vec3::new(polar.sin() * azimuth.cos(), polar.cos(), -polar.sin() * azimuth.sin()));
+                positions.push(Vec3::new(
+                    polar.sin() * azimuth.cos(),
+                    polar.cos(),
+                    -polar.sin() * azimuth.sin(),
+                ));
             }
         }
         let mut triangles = Vec::new();
@@ -238,8 +243,14 @@ mod tests {
 
     #[test]
     fn normals_of_any_length_become_unit_and_hopeless_ones_zero() {
-        let mut normals =
-            [Vec3::new(0.0, 3.0, 4.0), Vec3::X * 1e-30, Vec3::X * 1e30, Vec3::ZERO, Vec3::NAN, Vec3::INFINITY];
+        let mut normals = [
+            Vec3::new(0.0, 3.0, 4.0),
+            Vec3::X * 1e-30,
+            Vec3::X * 1e30,
+            Vec3::ZERO,
+            Vec3::NAN,
+            Vec3::INFINITY,
+        ];
         assert_eq!(make_unit(&mut normals), 3);
         assert_eq!(normals[..3], [Vec3::new(0.0, 0.6, 0.8), Vec3::X, Vec3::X]);
         assert_eq!(normals[3..], [Vec3::ZERO; 3]);

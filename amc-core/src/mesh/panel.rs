@@ -110,7 +110,9 @@ impl Garment {
         let (ranges, parts) = sort_by_island(&mut mesh, &islands);
         let measured: Vec<Figures> = ranges
             .par_iter()
-            .map(|range| measure(&mesh.positions, &uvs, &mesh.triangles, range.start as usize..range.end as usize))
+            .map(|range| {
+                measure(&mesh.positions, &uvs, &mesh.triangles, range.start as usize..range.end as usize)
+            })
             .collect();
         let panels = panels(&mesh.parts, ranges, &parts, &measured);
         Ok(Self {

@@ -66,7 +66,8 @@ fn read_beside(path: &Path, name: &str) -> Result<Vec<u8>> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let wanted = folder.join(relative);
     // A link could lead out again.
-    let real = |path: &Path| path.canonicalize().map_err(|source| Error::io("cannot open", source).in_file(path));
+    let real =
+        |path: &Path| path.canonicalize().map_err(|source| Error::io("cannot open", source).in_file(path));
     let root = real(if folder.as_os_str().is_empty() { Path::new(".") } else { folder })?;
     if !real(&wanted)?.starts_with(&root) {
         return Err(Error::unsupported(format!("refers to {name}, a link out of the file's own folder")));

@@ -74,10 +74,14 @@ impl Ring {
     fn new(points: &[Vec3]) -> Self {
         let count = points.len();
         // Newell's normal: twice the vector area.
-        let normal: Vec3 = (0..count).map(|i| (points[i] - points[0]).cross(points[(i + 1) % count] - points[0])).sum();
+        let normal: Vec3 =
+            (0..count).map(|i| (points[i] - points[0]).cross(points[(i + 1) % count] - points[0])).sum();
         let (x, y) = normal.try_normalize().unwrap_or(Vec3::Z).any_orthonormal_pair();
         let mut ring = Self {
-            points: points.iter().map(|&p| Vec2::new((p - points[0]).dot(x), (p - points[0]).dot(y))).collect(),
+            points: points
+                .iter()
+                .map(|&p| Vec2::new((p - points[0]).dot(x), (p - points[0]).dot(y)))
+                .collect(),
             previous: (0..count).map(|i| (i + count - 1) % count).collect(),
             next: (0..count).map(|i| (i + 1) % count).collect(),
             cost: vec![f32::INFINITY; count],
@@ -127,7 +131,11 @@ impl Ring {
             let p = self.points[j];
             j != before && j != after && self.reflex[j] && p != a && p != b && p != c && inside(p)
         };
-        if self.reflex[i] || self.corners(i).skip(1).any(blocked) { f32::INFINITY } else { a.distance_squared(c) }
+        if self.reflex[i] || self.corners(i).skip(1).any(blocked) {
+            f32::INFINITY
+        } else {
+            a.distance_squared(c)
+        }
     }
 
     fn cheapest(&self, from: usize) -> usize {
@@ -179,10 +187,20 @@ mod tests {
 
     #[test]
     fn concave_polygons_are_covered_once() {
-        assert_covers(&[[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [3.0, 3.0], [3.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]]);
+        assert_covers(&[
+            [0.0, 0.0],
+            [4.0, 0.0],
+            [4.0, 3.0],
+            [3.0, 3.0],
+            [3.0, 1.0],
+            [1.0, 1.0],
+            [1.0, 3.0],
+            [0.0, 3.0],
+        ]);
         let star: Vec<[f32; 2]> = (0..40)
             .map(|i| {
-                let (radius, angle) = (if i % 2 == 0 { 1.0 } else { 0.3 }, i as f32 * std::f32::consts::TAU / 40.0);
+                let (radius, angle) =
+                    (if i % 2 == 0 { 1.0 } else { 0.3 }, i as f32 * std::f32::consts::TAU / 40.0);
                 [radius * angle.cos(), radius * angle.sin()]
             })
             .collect();

@@ -256,9 +256,11 @@ impl State {
         let mut indices = word.split('/');
         for (slot, (kind, count)) in corner.iter_mut().zip(kinds) {
             let Some(index) = indices.next().filter(|index| !index.is_empty()) else { continue };
-            let number: i64 =
-                index.parse().map_err(|_| Error::malformed(format!("no face corner: {}", clean_name(word))))?;
-            let absolute = if number < 0 { (count as i64).saturating_add(number).saturating_add(1) } else { number };
+            let number: i64 = index
+                .parse()
+                .map_err(|_| Error::malformed(format!("no face corner: {}", clean_name(word))))?;
+            let absolute =
+                if number < 0 { (count as i64).saturating_add(number).saturating_add(1) } else { number };
             if absolute < 1 || absolute > count as i64 {
                 return Err(Error::malformed(format!("the face names {kind} {number}, of {count} so far")));
             }
@@ -312,7 +314,8 @@ fn parts(names: &[Names]) -> Vec<Part> {
         .map(|names| {
             let alone = uses.get(short(names)) == Some(&1);
             let long = [short(names), if alone { "" } else { &names.material }].join(" ");
-            let takes_fabric = ![&names.object, &names.group, &names.material].into_iter().any(|n| names_no_fabric(n));
+            let takes_fabric =
+                ![&names.object, &names.group, &names.material].into_iter().any(|n| names_no_fabric(n));
             Part { name: long.trim().to_owned(), takes_fabric }
         })
         .collect()

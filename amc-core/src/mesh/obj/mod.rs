@@ -85,7 +85,8 @@ fn append(draft: &mut Draft, mesh: tobj::Mesh) -> Result<()> {
     let mut rest = mesh.indices.as_slice();
     let mut points = Vec::new();
     for arity in mesh.face_arities {
-        let face = rest.split_off(..arity as usize).ok_or_else(|| Error::malformed("a face without its corners"))?;
+        let face =
+            rest.split_off(..arity as usize).ok_or_else(|| Error::malformed("a face without its corners"))?;
         points.clear();
         points.extend(face.iter().map(|&i| draft.positions[(base + i) as usize]));
         triangulate(&points, |triangle| draft.triangles.push(triangle.map(|k| base + face[k])));

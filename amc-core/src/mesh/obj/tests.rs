@@ -8,7 +8,8 @@ fn fault(text: &str) -> String {
 
 #[test]
 fn quads_polygons_and_relative_indices_become_triangles() {
-    let text = format!("{SQUARE}v 0.5 2 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\nf -5 -4 -3 -1 -2\n");
+    let text =
+        format!("{SQUARE}v 0.5 2 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\nf -5 -4 -3 -1 -2\n");
     let mesh = parse(text.as_bytes()).unwrap();
     assert_eq!((mesh.triangles.len(), mesh.file_vertices), (5, 5));
     let total: f32 = mesh
@@ -23,7 +24,12 @@ fn quads_polygons_and_relative_indices_become_triangles() {
     // The second face has no UVs: it must not get the first one's.
     let uvs = mesh.uvs.unwrap();
     assert!(mesh.triangles[2..].as_flattened().iter().all(|&i| uvs[i as usize] == Vec2::ZERO));
-    assert!(mesh.triangles[..2].as_flattened().iter().all(|&i| uvs[i as usize] == mesh.positions[i as usize].truncate()));
+    assert!(
+        mesh.triangles[..2]
+            .as_flattened()
+            .iter()
+            .all(|&i| uvs[i as usize] == mesh.positions[i as usize].truncate())
+    );
 }
 
 #[test]
@@ -35,7 +41,10 @@ fn groups_objects_and_materials_make_parts() {
     let mesh = parse(text.as_bytes()).unwrap();
     let names: Vec<&str> = mesh.parts.iter().map(|part| part.name.as_str()).collect();
     assert_eq!(names, ["sleeve wool", "sleeve silk", "shirt_buttons", "hat"]);
-    assert_eq!(mesh.parts.iter().map(|part| part.takes_fabric).collect::<Vec<_>>(), [true, true, false, true]);
+    assert_eq!(
+        mesh.parts.iter().map(|part| part.takes_fabric).collect::<Vec<_>>(),
+        [true, true, false, true]
+    );
     assert_eq!(mesh.triangle_parts, [0, 0, 1, 2, 3]);
 }
 
@@ -47,7 +56,11 @@ fn unusual_but_valid_lines_are_read() {
     assert_eq!(mesh.triangles.len(), 1);
     assert_eq!(mesh.normals, [Vec3::Z; 3]);
     assert_eq!(mesh.parts[0].name, "\u{FFFD}( café");
-    assert!(mesh.notices.iter().any(|notice| notice == "3 points and lines were left out"), "{:?}", mesh.notices);
+    assert!(
+        mesh.notices.iter().any(|notice| notice == "3 points and lines were left out"),
+        "{:?}",
+        mesh.notices
+    );
 }
 
 #[test]

@@ -2,8 +2,7 @@ use super::*;
 
 /// Two squares of two triangles each, side by side in space, over the given UVs; vertices shared along the middle.
 fn strip(uvs: [[f32; 2]; 6]) -> Mesh {
-    let positions: Vec<Vec3> =
-        (0..6).map(|i| Vec3::new((i % 3) as f32, (i / 3) as f32, 0.0)).collect();
+    let positions: Vec<Vec3> = (0..6).map(|i| Vec3::new((i % 3) as f32, (i / 3) as f32, 0.0)).collect();
     Mesh {
         normals: vec![Vec3::Z; 6],
         uvs: Some(uvs.map(Vec2::from).to_vec()),
@@ -72,7 +71,8 @@ fn parts_cut_and_panels_stand_together() {
     let garment = Garment::new(mesh).unwrap();
     assert_eq!(garment.positions.len(), 8);
     assert_vertices_have_one_class(&garment);
-    let told: Vec<_> = garment.panels.iter().map(|p| (p.id.as_str(), p.triangles.clone(), p.takes_fabric)).collect();
+    let told: Vec<_> =
+        garment.panels.iter().map(|p| (p.id.as_str(), p.triangles.clone(), p.takes_fabric)).collect();
     assert_eq!(told, [("left", 0..2, true), ("buttons", 2..4, false)]);
 }
 
@@ -111,7 +111,8 @@ fn ids_survive_another_order_of_everything() {
         for k in 0..9 {
             let square = order(4 * k) / 4;
             let corner = |c: usize| place[4 * square + (c + turn) % 4];
-            text += &format!("f {0}/{0} {1}/{1} {2}/{2} {3}/{3}\n", corner(0), corner(1), corner(2), corner(3));
+            text +=
+                &format!("f {0}/{0} {1}/{1} {2}/{2} {3}/{3}\n", corner(0), corner(1), corner(2), corner(3));
         }
         let garment = Garment::new(crate::mesh::obj::parse(text.as_bytes()).unwrap()).unwrap();
         let mut panels: Vec<_> = garment.panels.into_iter().map(|p| (p.id, p.name)).collect();

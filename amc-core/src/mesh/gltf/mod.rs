@@ -1,0 +1,52 @@
+//! glTF 2.0, as `.gltf` and as `.glb`.
+//!
+//! The crate `gltf` reads and validates the JSON; the container, the buffers and the accessors are read here, with
+//! every offset and count checked first (the crate's own readers trust them). A part is a primitive in a node.
+//! Triangles, strips and fans are read, sparse and quantised accessors (KHR_mesh_quantization) too; points and lines,
+//! skins, morph targets and animations are left out. Texture v runs down in glTF and is turned up.
+
+mod accessor;
+mod container;
+mod primitive;
+mod scene;
+#[cfg(test)]
+mod tests;
+
+use super::draft::Draft;
+use super::{Mesh, Resolve, check};
+use crate::{Error, Result};
+
+/// Reads a glTF or GLB file; its numbers are taken for metres. `resolve` gives the content of a file beside it that
+/// it names (relative, percent-decoded).
+///
+/// # Errors
+/// Bytes that are not glTF 2.0, an extension that is required and not known, an accessor out of its buffer, an index
+/// out of range, a number that is not finite (naming mesh and primitive), or no triangle that has an area.
+pub fn parse(bytes: &[u8], resolve: Resolve<'_>) -> Result<Mesh> {
+    let (json, chunk) = container::split(bytes)?;
+    let document = container::document(json)?;
+    let buffers = container::buffers(&document, chunk, resolve)?;
+    let mut draft = Draft::default();
+    let mut left_out = 0;
+    // An instance costs a few bytes of JSON and a whole mesh of memory.
+    let budget = bytes.len() + buffers.iter().map(|buffer| buffer.len()).sum::<usize>() + (1 << 20);
+    for instance in scene::instances(&document)? {
+        for primitive in instance.mesh.primitives() {
+            let place = format!("mesh {}, primitive {}", instance.mesh.index(), primitive.index());
+            let read = primitive::append(&mut draft, &primitive, &instance, &buffers);
+            left_out += usize::from(!read.map_err(|error| error.at_element(place.clone()))?);
+            if draft.positions.len().max(draft.triangles.len()) > budget {
+                return Err(Error::too_large("more copies of meshes than the file's size justifies")
+                    .at_element(place));
+            }
+        }
+    }
+    if left_out > 0 {
+        draft.notices.push(format!("{left_out} primitives of points or lines were left out"));
+    }
+    if document.skins().len() > 0 {
+        draft.notices.push("skins were left out: the mesh stands as it was bound".to_owned());
+    }
+    primitive::tell_apart(&mut draft);
+    check::check(draft)
+}
