@@ -29,6 +29,10 @@ pub(super) fn find(pictures: &[&Raster], lens: Lens) -> Result<Found> {
     let guesses = coarse::guess(&mean, lens);
     let mut best: Option<refine::Fit> = None;
     for guess in guesses {
+        // The likeliest guesses come first; one that explains nearly its whole outline needs no rival.
+        if best.is_some_and(|best| best.support > 0.8) {
+            break;
+        }
         let Some(fit) = refine::refine(&mean, lens, guess) else { continue };
         if best.is_none_or(|best| fit.score() > best.score()) {
             best = Some(fit);
@@ -105,12 +109,16 @@ fn pixel(picture: &Raster, x: usize, y: usize) -> [f32; 4] {
     let channels = picture.channels() as usize;
     let start = (y * picture.width() as usize + x) * channels;
     match picture.samples() {
-        Samples::U8(samples) => spread(samples.get(start..start + channels), |value| {
-            crate::color::LINEAR_FROM_SRGB8[usize::from(value)]
-        }, |alpha| f32::from(alpha) / 255.0),
-        Samples::U16(samples) => spread(samples.get(start..start + channels), |value| {
-            LINEAR_FROM_SRGB16[usize::from(value)]
-        }, |alpha| f32::from(alpha) / 65535.0),
+        Samples::U8(samples) => spread(
+            samples.get(start..start + channels),
+            |value| crate::color::LINEAR_FROM_SRGB8[usize::from(value)],
+            |alpha| f32::from(alpha) / 255.0,
+        ),
+        Samples::U16(samples) => spread(
+            samples.get(start..start + channels),
+            |value| LINEAR_FROM_SRGB16[usize::from(value)],
+            |alpha| f32::from(alpha) / 65535.0,
+        ),
         Samples::F32(samples) => spread(samples.get(start..start + channels), |value| value, |alpha| alpha),
     }
 }

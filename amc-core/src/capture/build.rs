@@ -17,7 +17,7 @@ use super::report::{Ball, BuildReport};
 use super::resample::{Footprints, Texel};
 use super::session::Turn;
 use super::symmetry::{self, Analysis, DEFAULT_THRESHOLD};
-use super::turn::{Spline, Stack, reading_turn};
+use super::turn::{Direction, Spline, Stack, reading_turn};
 use crate::amc::{Amc, Frame, Symmetry, TableSize, Texels};
 use crate::color::srgb8_from_linear;
 use crate::image::decode::{Raster, read_raster};
@@ -141,8 +141,12 @@ pub fn build(source: &Path, options: &BuildOptions, progress: &Progress<'_>) -> 
     let symmetry = options.symmetry.unwrap_or_else(|| analysis.symmetry(options.threshold));
     let slices = options.slices.unwrap_or_else(|| nearest_slices(plan.pictures.len(), symmetry));
     let size = TableSize::new(options.side, slices)?;
+    let directions = symmetry.order() * slices;
     let slicing = Slicing {
         size,
+        directions: (0..directions)
+            .map(|k| Direction::new(std::f64::consts::TAU * f64::from(k) / f64::from(directions)))
+            .collect(),
         symmetry,
         azimuth: options.azimuth,
         // The mean over the turn, unless the person asked for R = 1.
@@ -163,7 +167,13 @@ pub fn build(source: &Path, options: &BuildOptions, progress: &Progress<'_>) -> 
         similarity: analysis.similarity,
         threshold: options.threshold,
         noise: analysis.noise,
-        ball: Ball { x: at.x, y: at.y, radius, residual, cone_half_angle_deg: sight.half_angle().to_degrees() },
+        ball: Ball {
+            x: at.x,
+            y: at.y,
+            radius,
+            residual,
+            cone_half_angle_deg: sight.half_angle().to_degrees(),
+        },
         coverage,
         size: size.side(),
         slices,
@@ -180,7 +190,10 @@ pub fn build(source: &Path, options: &BuildOptions, progress: &Progress<'_>) -> 
 fn check(options: &BuildOptions) -> Result<()> {
     TableSize::new(options.side, options.slices.unwrap_or(1))?;
     if options.side < 4 {
-        return Err(Error::invalid(format!("a table of {0} x {0} texels; at least 4 are needed", options.side)));
+        return Err(Error::invalid(format!(
+            "a table of {0} x {0} texels; at least 4 are needed",
+            options.side
+        )));
     }
     if !(options.threshold >= 0.0 && options.threshold.is_finite()) {
         return Err(Error::invalid(format!("a threshold of {}; it must be 0 or more", options.threshold)));
@@ -197,7 +210,13 @@ fn nearest_slices(pictures: usize, symmetry: Symmetry) -> u32 {
     nearest.clamp(8, TableSize::LIMIT)
 }
 
-fn notices(plan: &Plan, options: &BuildOptions, size: TableSize, analysis: &Analysis, frame: Frame) -> Vec<String> {
+fn notices(
+    plan: &Plan,
+    options: &BuildOptions,
+    size: TableSize,
+    analysis: &Analysis,
+    frame: Frame,
+) -> Vec<String> {
     let mut notices = plan.notices.clone();
     if !size.is_power_of_two() {
         notices.push(format!("the table's size {} x {} is no power of two", size.side(), size.slices()));
@@ -209,7 +228,8 @@ fn notices(plan: &Plan, options: &BuildOptions, size: TableSize, analysis: &Anal
         && analysis.symmetry(options.threshold) < asked
         && !analysis.isotropic
     {
-        notices.push(format!("the pictures do not repeat {} times in a turn, as was asked for", asked.order()));
+        notices
+            .push(format!("the pictures do not repeat {} times in a turn, as was asked for", asked.order()));
     }
     notices
 }
@@ -273,7 +293,12 @@ impl<'a> Reading<'a> {
     }
 
     /// The texels of all pictures: of those kept, and of all others, each dropped as soon as it is resampled.
-    fn resample(&self, first: &First<'_>, kept: Vec<(usize, Raster)>, footprints: &Footprints) -> Result<Stack> {
+    fn resample(
+        &self,
+        first: &First<'_>,
+        kept: Vec<(usize, Raster)>,
+        footprints: &Footprints,
+    ) -> Result<Stack> {
         let mut texels: Vec<Option<Vec<f16>>> = vec![None; self.plan.pictures.len()];
         let from_kept: Vec<(usize, Vec<f16>)> =
             kept.into_par_iter().map(|(k, raster)| (k, footprints.resample(&raster))).collect();
@@ -314,6 +339,8 @@ static SRGB8_FROM_HALF: LazyLock<Vec<u8>> =
 /// From the texels of all pictures to slices.
 struct Slicing<'a> {
     size: TableSize,
+    /// All directions of a turn, R times as many as slices.
+    directions: Vec<Direction>,
     symmetry: Symmetry,
     azimuth: Azimuth,
     one_look: bool,
@@ -324,7 +351,7 @@ struct Slicing<'a> {
 
 /// Some texels' colours, slice by slice.
 struct Block {
-    /// `[texel][slice]`, red, green and blue.
+    /// `[slice][texel]`, red, green and blue.
     colours: Vec<[f16; 3]>,
     /// The share of the pictures that showed the texel.
     shown: Vec<f32>,
@@ -348,7 +375,8 @@ impl Slicing<'_> {
         // A texel that half of the pictures hide is filled like the rim.
         let measured: Vec<bool> = shown.iter().map(|&shown| shown >= 0.5).collect();
         let fill = RimFill::new(self.size.side(), &self.footprints.texels, &measured)?;
-        let coverage = measured.iter().filter(|&&measured| measured).count() as f64 / disc_texels(self.size) as f64;
+        let coverage =
+            measured.iter().filter(|&&measured| measured).count() as f64 / disc_texels(self.size) as f64;
         let texels = match format {
             TexelFormat::Srgb8 => {
                 let encode = &*SRGB8_FROM_HALF;
@@ -370,38 +398,39 @@ impl Slicing<'_> {
         let (values, shown) = stack.gather(chunk);
         let curves = self.spline.curves(3 * chunk.len(), values);
         let slices = self.size.slices() as usize;
-        let order = self.symmetry.order() as usize;
-        let mut colours = Vec::with_capacity(chunk.len() * slices);
+        let order = self.symmetry.order() as f32;
+        let mut colours = vec![[f16::ZERO; 3]; chunk.len() * slices];
         let mut sums = vec![[0.0f32; 3]; slices];
         for (k, &texel) in chunk.iter().enumerate() {
             sums.fill([0.0; 3]);
-            self.add_directions(&self.footprints.texels[texel], |slice, turn| {
+            self.each_direction(&self.footprints.texels[texel], |slice, turn| {
                 let colour = curves.colour(&self.spline.position(turn), 3 * k);
                 for (sum, value) in sums[slice].iter_mut().zip(colour) {
-                    *sum += value / order as f32;
+                    *sum += value / order;
                 }
             });
             if self.one_look {
-                let mean = std::array::from_fn(|c| sums.iter().map(|sum| sum[c]).sum::<f32>() / slices as f32);
+                let mean =
+                    std::array::from_fn(|c| sums.iter().map(|sum| sum[c]).sum::<f32>() / slices as f32);
                 sums.fill(mean);
             }
-            colours.extend(sums.iter().map(|sum| sum.map(|value| f16::from_f32(value.min(65504.0)))));
+            for (colour, sum) in colours[k..].iter_mut().step_by(chunk.len()).zip(&sums) {
+                *colour = sum.map(|value| f16::from_f32(value.min(65504.0)));
+            }
         }
         Block { colours, shown }
     }
 
-    /// Calls `add` with each slice and each of the R turns at which the pictures show it.
-    fn add_directions(&self, texel: &Texel, mut add: impl FnMut(usize, f64)) {
-        use std::f64::consts::{PI, TAU};
+    /// Calls `read` with each slice and each of the R turns at which the pictures show it.
+    fn each_direction(&self, texel: &Texel, mut read: impl FnMut(usize, f64)) {
         let slices = self.size.slices() as usize;
-        let order = self.symmetry.order() as usize;
-        let directions = order * slices;
+        let all = self.directions.len();
         // Half a turn of the tangent is half a turn of the ball, at every normal.
-        let (reckoned, copies) = if directions.is_multiple_of(2) { (directions / 2, 2) } else { (directions, 1) };
-        for direction in 0..reckoned {
-            let turn = reading_turn(texel, self.azimuth, TAU * direction as f64 / directions as f64);
+        let (reckoned, copies) = if all.is_multiple_of(2) { (all / 2, 2) } else { (all, 1) };
+        for (k, direction) in self.directions[..reckoned].iter().enumerate() {
+            let turn = reading_turn(texel, self.azimuth, direction);
             for copy in 0..copies {
-                add((direction + copy * reckoned) % slices, turn + PI * copy as f64);
+                read((k + copy * reckoned) % slices, turn + std::f64::consts::PI * copy as f64);
             }
         }
     }
@@ -415,16 +444,17 @@ impl Slicing<'_> {
         empty: T,
         encode: impl Fn([f16; 3], f32) -> T + Sync,
     ) -> Vec<T> {
-        let slices = self.size.slices() as usize;
         let colour = |texel: usize, slice: usize| {
-            blocks[texel / BLOCK].colours[(texel % BLOCK) * slices + slice]
+            let block = &blocks[texel / BLOCK];
+            block.colours[slice * block.shown.len() + texel % BLOCK]
         };
         let mut texels = vec![empty; self.size.texels()];
         texels.par_chunks_mut(self.size.slice_texels()).enumerate().for_each(|(slice, texels)| {
             for (k, texel) in self.footprints.texels.iter().enumerate() {
                 let at = (texel.j * self.size.side() + texel.i) as usize;
                 // Full only where every picture showed it.
-                texels[at] = encode(colour(k, slice), if shown[k] >= 1.0 { 1.0 } else { 0.5 + shown[k] * 0.49 });
+                texels[at] =
+                    encode(colour(k, slice), if shown[k] >= 1.0 { 1.0 } else { 0.5 + shown[k] * 0.49 });
             }
             fill.each(|at, sources| {
                 let mut sum = [0.0; 3];
@@ -452,9 +482,14 @@ mod tests {
 
     #[test]
     fn slices_are_the_nearest_power_of_two() {
-        let cases = [(128, 2, 64), (96, 2, 64), (37, 1, 32), (100, 1, 128), (8, 4, 8), (100, 3, 32), (4096, 1, 2048)];
+        let cases =
+            [(128, 2, 64), (96, 2, 64), (37, 1, 32), (100, 1, 128), (8, 4, 8), (100, 3, 32), (4096, 1, 2048)];
         for (pictures, order, slices) in cases {
-            assert_eq!(nearest_slices(pictures, Symmetry::try_from(order).unwrap()), slices, "{pictures} {order}");
+            assert_eq!(
+                nearest_slices(pictures, Symmetry::try_from(order).unwrap()),
+                slices,
+                "{pictures} {order}"
+            );
         }
     }
 }

@@ -65,8 +65,12 @@ fn inwards(grid: &[u32], side: u32, at: u32) -> Vec<(u32, f32)> {
         let (x, y) = (point.x.floor(), point.y.floor());
         let (fx, fy) = (point.x - x, point.y - y);
         let mut sources = Vec::new();
-        let corners =
-            [(0, 0, (1.0 - fx) * (1.0 - fy)), (1, 0, fx * (1.0 - fy)), (0, 1, (1.0 - fx) * fy), (1, 1, fx * fy)];
+        let corners = [
+            (0, 0, (1.0 - fx) * (1.0 - fy)),
+            (1, 0, fx * (1.0 - fy)),
+            (0, 1, (1.0 - fx) * fy),
+            (1, 1, fx * fy),
+        ];
         for (dx, dy, weight) in corners {
             let (i, j) = (x as u32 + dx, y as u32 + dy);
             if i < side && j < side && weight > 0.0 {

@@ -36,7 +36,8 @@ impl Plan {
     /// The plan for a folder of pictures, a session's folder, or a `session.json` itself. `direction` overrides what
     /// the session says.
     pub(super) fn of(source: &Path, direction: Option<Turn>) -> Result<Self> {
-        let about = std::fs::metadata(source).map_err(|error| Error::io("cannot open", error).in_file(source))?;
+        let about =
+            std::fs::metadata(source).map_err(|error| Error::io("cannot open", error).in_file(source))?;
         if !about.is_dir() {
             if source.file_name().is_some_and(|name| name == SESSION_FILE) {
                 return Self::of_session(source, direction);
@@ -47,7 +48,11 @@ impl Plan {
             .in_file(source));
         }
         let session = source.join(SESSION_FILE);
-        if session.is_file() { Self::of_session(&session, direction) } else { Self::of_folder(source, direction) }
+        if session.is_file() {
+            Self::of_session(&session, direction)
+        } else {
+            Self::of_folder(source, direction)
+        }
     }
 
     fn of_session(path: &Path, direction: Option<Turn>) -> Result<Self> {
@@ -76,7 +81,12 @@ impl Plan {
         Self::new(folder, paths.into_iter().zip(angles).collect(), direction.unwrap_or_default(), notices)
     }
 
-    fn new(source: &Path, pictures: Vec<(PathBuf, f64)>, direction: Turn, notices: Vec<String>) -> Result<Self> {
+    fn new(
+        source: &Path,
+        pictures: Vec<(PathBuf, f64)>,
+        direction: Turn,
+        notices: Vec<String>,
+    ) -> Result<Self> {
         if pictures.len() < FEWEST_PICTURES {
             return Err(Error::invalid(format!(
                 "{} pictures; at least {FEWEST_PICTURES} are needed, spread over a whole turn of the ball",
@@ -85,8 +95,11 @@ impl Plan {
             .in_file(source));
         }
         if pictures.len() > MOST_PICTURES {
-            return Err(Error::too_large(format!("{} pictures; the limit is {MOST_PICTURES}", pictures.len()))
-                .in_file(source));
+            return Err(Error::too_large(format!(
+                "{} pictures; the limit is {MOST_PICTURES}",
+                pictures.len()
+            ))
+            .in_file(source));
         }
         let mut pictures: Vec<Planned> = pictures
             .into_iter()

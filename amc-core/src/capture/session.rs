@@ -107,8 +107,12 @@ impl Session {
     }
 
     fn check_angles_differ(&self) -> Result<()> {
-        let mut turned: Vec<(f64, usize)> =
-            self.pictures.iter().enumerate().map(|(k, picture)| (picture.angle_deg.rem_euclid(360.0), k)).collect();
+        let mut turned: Vec<(f64, usize)> = self
+            .pictures
+            .iter()
+            .enumerate()
+            .map(|(k, picture)| (picture.angle_deg.rem_euclid(360.0), k))
+            .collect();
         turned.sort_by(|a, b| a.0.total_cmp(&b.0));
         let around = turned.first().map(|&(angle, k)| (angle + 360.0, k));
         for (&(a, first), (b, second)) in turned.iter().zip(turned.iter().skip(1).copied().chain(around)) {
@@ -130,7 +134,9 @@ impl Session {
 fn check_name(name: &str) -> Result<()> {
     let inside = |component| matches!(component, Component::Normal(_) | Component::CurDir);
     if name.is_empty() || name.contains('\0') || !Path::new(name).components().all(inside) {
-        return Err(Error::invalid(format!("the file name {name:?} must be relative and stay in the session's folder")));
+        return Err(Error::invalid(format!(
+            "the file name {name:?} must be relative and stay in the session's folder"
+        )));
     }
     Ok(())
 }
@@ -140,7 +146,10 @@ mod tests {
     use super::*;
 
     fn session(pictures: &str) -> Result<Session> {
-        Session::parse(format!(r#"{{"version": 1, "turn": "cw", "pictures": [{pictures}], "rig": {{"a": 1}}}}"#).as_bytes())
+        Session::parse(
+            format!(r#"{{"version": 1, "turn": "cw", "pictures": [{pictures}], "rig": {{"a": 1}}}}"#)
+                .as_bytes(),
+        )
     }
 
     fn message(pictures: &str) -> String {
@@ -167,8 +176,13 @@ mod tests {
 
     #[test]
     fn equal_angles_are_refused_up_to_whole_turns() {
-        let message = message(r#"{"file": "a", "angle_deg": 359.99999}, {"file": "b", "angle_deg": 5}, {"file": "c", "angle_deg": 0}"#);
-        assert!(message.starts_with("pictures[2].angle_deg: ") && message.contains("pictures[0]"), "{message}");
+        let message = message(
+            r#"{"file": "a", "angle_deg": 359.99999}, {"file": "b", "angle_deg": 5}, {"file": "c", "angle_deg": 0}"#,
+        );
+        assert!(
+            message.starts_with("pictures[2].angle_deg: ") && message.contains("pictures[0]"),
+            "{message}"
+        );
     }
 
     #[test]
@@ -178,6 +192,11 @@ mod tests {
         // NaN is no JSON, an overflowing number no angle.
         assert!(session(r#"{"file": "a", "angle_deg": NaN}"#).is_err());
         assert!(session(r#"{"file": "a", "angle_deg": 1e999}"#).is_err());
-        assert!(Session::parse(br#"{"version": 2, "pictures": []}"#).unwrap_err().to_string().contains("version 2"));
+        assert!(
+            Session::parse(br#"{"version": 2, "pictures": []}"#)
+                .unwrap_err()
+                .to_string()
+                .contains("version 2")
+        );
     }
 }

@@ -11,15 +11,18 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::resample::Texel;
-use super::turn::{Spline, Stack, reading_turn};
+use super::turn::{Direction, Spline, Stack, reading_turn};
 use crate::amc::Symmetry;
 use crate::view_space::Azimuth;
 
 /// The threshold on [`Similarity`] under which a symmetry is taken, unless another is given.
 pub const DEFAULT_THRESHOLD: f64 = 0.25;
 
-/// Texels along an axis that are looked at.
+/// Texels along an axis that are looked at; half as many where there are many pictures.
 const LATTICE: u32 = 64;
+
+/// From here on there are many pictures.
+const MANY: usize = 48;
 
 /// Variation along the turn below this, perceived, is none: half a step of 8 bits.
 const LEAST_VARIATION: f64 = 0.002;
@@ -62,7 +65,10 @@ impl Analysis {
             (self.similarity.three, Symmetry::Three),
             (self.similarity.two, Symmetry::Two),
         ];
-        measured.into_iter().find(|(rho, _)| *rho <= threshold).map_or(Symmetry::One, |(_, symmetry)| symmetry)
+        measured
+            .into_iter()
+            .find(|(rho, _)| *rho <= threshold)
+            .map_or(Symmetry::One, |(_, symmetry)| symmetry)
     }
 }
 
@@ -99,7 +105,8 @@ pub(super) fn analyse(stack: &Stack, texels: &[Texel], side: u32, spline: &Splin
 /// the tangent plane is nearly one in the picture, so that half, third and quarter turns fall on measured angles or
 /// as near to them as they can, and little hangs on interpolating what was hardly sampled.
 fn lattice(texels: &[Texel], side: u32, pictures: usize) -> Vec<usize> {
-    let step = side.div_ceil(LATTICE).max(1);
+    let along = if pictures < MANY { LATTICE } else { LATTICE / 2 };
+    let step = side.div_ceil(along).max(1);
     let widest = (30.0 + (pictures as f64 - 16.0).max(0.0)).min(75.0);
     let least_z = widest.to_radians().cos();
     let chosen = |texel: &Texel| texel.i % step == 0 && texel.j % step == 0 && texel.m.z >= least_z;
@@ -128,15 +135,16 @@ impl Sums {
         let steps = if spline.len() <= 64 { 48 } else { 96 };
         let (values, shown) = stack.gather(chunk);
         let curves = spline.curves(3 * chunk.len(), values);
+        let directions: Vec<Direction> =
+            (0..steps).map(|s| Direction::new(TAU * s as f64 / steps as f64)).collect();
         let mut sums = Self::default();
         let mut look = vec![[0.0f32; 3]; steps];
         for (k, &texel) in chunk.iter().enumerate() {
             if shown[k] < 1.0 {
                 continue;
             }
-            for (s, look) in look.iter_mut().enumerate() {
-                let phi = TAU * s as f64 / steps as f64;
-                let turn = reading_turn(&texels[texel], Azimuth::Transported, phi);
+            for (look, direction) in look.iter_mut().zip(&directions) {
+                let turn = reading_turn(&texels[texel], Azimuth::Transported, direction);
                 *look = curves.colour(&spline.position(turn), 3 * k).map(perceived);
             }
             sums.add(&look);
@@ -146,14 +154,17 @@ impl Sums {
 
     fn add(&mut self, look: &[[f32; 3]]) {
         let count = look.len();
-        let mean: [f64; 3] =
-            std::array::from_fn(|c| look.iter().map(|colour| f64::from(colour[c])).sum::<f64>() / count as f64);
-        let spread = |colour: &[f32; 3]| (0..3).map(|c| (f64::from(colour[c]) - mean[c]).powi(2)).sum::<f64>();
+        let mean: [f64; 3] = std::array::from_fn(|c| {
+            look.iter().map(|colour| f64::from(colour[c])).sum::<f64>() / count as f64
+        });
+        let spread =
+            |colour: &[f32; 3]| (0..3).map(|c| (f64::from(colour[c]) - mean[c]).powi(2)).sum::<f64>();
         self.count += 3.0;
         self.variance += look.iter().map(spread).sum::<f64>() / count as f64;
         for (sum, order) in self.difference.iter_mut().zip(2..) {
             let later = look.iter().cycle().skip(count / order);
-            let squares = look.iter().zip(later).flat_map(|(a, b)| (0..3).map(|c| f64::from(a[c] - b[c]).powi(2)));
+            let squares =
+                look.iter().zip(later).flat_map(|(a, b)| (0..3).map(|c| f64::from(a[c] - b[c]).powi(2)));
             *sum += squares.sum::<f64>() / count as f64;
         }
     }
@@ -187,7 +198,12 @@ fn noise_variance(stack: &Stack, texels: &[Texel], side: u32, spline: &Spline) -
             }
             let (values, shown) = stack.gather(&around);
             let there = shown.iter().all(|&shown| shown >= 1.0);
-            there.then(|| (space_and_turn(&values), (spline.len() >= 24 && spline.is_even()).then(|| turn_only(&values))))
+            there.then(|| {
+                (
+                    space_and_turn(&values),
+                    (spline.len() >= 24 && spline.is_even()).then(|| turn_only(&values)),
+                )
+            })
         })
         .collect();
     let count = estimates.len().max(1) as f64;
@@ -216,10 +232,8 @@ fn space_and_turn(values: &[f32]) -> f64 {
 
 /// The noise's variance from the middle of 3 x 3 texels: fourth differences along the turn.
 fn turn_only(values: &[f32]) -> f64 {
-    let curve: Vec<[f32; 3]> = values
-        .chunks_exact(27)
-        .map(|picture| std::array::from_fn(|c| perceived(picture[12 + c])))
-        .collect();
+    let curve: Vec<[f32; 3]> =
+        values.chunks_exact(27).map(|picture| std::array::from_fn(|c| perceived(picture[12 + c]))).collect();
     let count = curve.len();
     let squares = (0..count).flat_map(|p| {
         let at: [[f32; 3]; 5] = std::array::from_fn(|k| curve[(p + k) % count]);

@@ -34,10 +34,14 @@ struct Circle {
 pub(super) fn guess(mean: &Mean<'_>, lens: Lens) -> Vec<Sight> {
     let small = Small::new(mean);
     let plane = Plane { lens, step: small.step as f64 };
-    let edges: Vec<Edge> = small.edges().into_iter().filter_map(|(at, normal)| plane.edge(at, normal)).collect();
+    let edges: Vec<Edge> =
+        small.edges().into_iter().filter_map(|(at, normal)| plane.edge(at, normal)).collect();
     let Some(votes) = Votes::cast(&edges, &small) else { return Vec::new() };
-    let mut circles: Vec<Circle> =
-        votes.peaks().into_iter().filter_map(|centre| best_radius(centre, &edges, votes.most_radius)).collect();
+    let mut circles: Vec<Circle> = votes
+        .peaks()
+        .into_iter()
+        .filter_map(|centre| best_radius(centre, &edges, votes.most_radius))
+        .collect();
     circles.sort_by(|a, b| b.score.total_cmp(&a.score));
     circles.truncate(GUESSES);
     circles.into_iter().filter_map(|circle| plane.sight(circle)).collect()
@@ -88,9 +92,8 @@ impl Plane {
                 let near = Self::direction(circle.centre - outwards, focal, centre, self.step);
                 let far = Self::direction(circle.centre + outwards, focal, centre, self.step);
                 let towards = (near + far).try_normalize()?;
-                (towards.z < -0.01).then(|| {
-                    Sight::Cone(Cone::new(focal, centre, towards, near.angle_between(far) / 2.0))
-                })
+                (towards.z < -0.01)
+                    .then(|| Sight::Cone(Cone::new(focal, centre, towards, near.angle_between(far) / 2.0)))
             }
         }
     }
@@ -149,13 +152,19 @@ impl Small {
 
     /// The gradient of the channel that has the largest, at an inner pixel.
     fn gradient(&self, x: usize, y: usize) -> DVec2 {
-        let at = |dx: usize, dy: usize, c: usize| f64::from(self.pixels[(y + dy - 1) * self.width + x + dx - 1][c]);
+        let at = |dx: usize, dy: usize, c: usize| {
+            f64::from(self.pixels[(y + dy - 1) * self.width + x + dx - 1][c])
+        };
         let of = |c: usize| {
-            let gx = at(2, 0, c) + 2.0 * at(2, 1, c) + at(2, 2, c) - at(0, 0, c) - 2.0 * at(0, 1, c) - at(0, 2, c);
-            let gy = at(0, 2, c) + 2.0 * at(1, 2, c) + at(2, 2, c) - at(0, 0, c) - 2.0 * at(1, 0, c) - at(2, 0, c);
+            let gx =
+                at(2, 0, c) + 2.0 * at(2, 1, c) + at(2, 2, c) - at(0, 0, c) - 2.0 * at(0, 1, c) - at(0, 2, c);
+            let gy =
+                at(0, 2, c) + 2.0 * at(1, 2, c) + at(2, 2, c) - at(0, 0, c) - 2.0 * at(1, 0, c) - at(2, 0, c);
             DVec2::new(gx, gy) / 8.0
         };
-        (1..3).map(of).fold(of(0), |best, g| if g.length_squared() > best.length_squared() { g } else { best })
+        (1..3)
+            .map(of)
+            .fold(of(0), |best, g| if g.length_squared() > best.length_squared() { g } else { best })
     }
 
     /// The ridges of the gradient that stand out of the noise: full pixel coordinates, and the gradient's direction.
