@@ -29,6 +29,10 @@ pub(super) fn find(pictures: &[&Raster], lens: Lens) -> Result<Found> {
     let guesses = coarse::guess(&mean, lens);
     let mut best: Option<refine::Fit> = None;
     for guess in guesses {
+        // The likeliest guesses come first; one that explains nearly its whole outline needs no rival.
+        if best.is_some_and(|best| best.support > 0.8) {
+            break;
+        }
         let Some(fit) = refine::refine(&mean, lens, guess) else { continue };
         if best.is_none_or(|best| fit.score() > best.score()) {
             best = Some(fit);

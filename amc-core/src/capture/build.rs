@@ -16,7 +16,7 @@ use super::report::{Ball, BuildReport};
 use super::resample::{Footprints, Texel};
 use super::session::Turn;
 use super::symmetry::{self, Analysis, DEFAULT_THRESHOLD};
-use super::turn::{Spline, Stack, reading_turn};
+use super::turn::{Direction, Spline, Stack, reading_turn};
 use crate::amc::{Amc, Frame, Symmetry, TableSize, TexelFormat, Texels};
 use crate::color::srgb8_from_linear;
 use crate::image::decode::{Raster, read_raster};
@@ -129,8 +129,12 @@ pub fn build(source: &Path, options: &BuildOptions, progress: &Progress<'_>) -> 
     let symmetry = options.symmetry.unwrap_or_else(|| analysis.symmetry(options.threshold));
     let slices = options.slices.unwrap_or_else(|| nearest_slices(plan.pictures.len(), symmetry));
     let size = TableSize::new(options.side, slices)?;
+    let directions = symmetry.order() * slices;
     let slicing = Slicing {
         size,
+        directions: (0..directions)
+            .map(|k| Direction::new(std::f64::consts::TAU * f64::from(k) / f64::from(directions)))
+            .collect(),
         symmetry,
         azimuth: options.azimuth,
         // The mean over the turn, unless the person asked for R = 1.
@@ -323,6 +327,8 @@ static SRGB8_FROM_HALF: LazyLock<Vec<u8>> =
 /// From the texels of all pictures to slices.
 struct Slicing<'a> {
     size: TableSize,
+    /// All directions of a turn, R times as many as slices.
+    directions: Vec<Direction>,
     symmetry: Symmetry,
     azimuth: Azimuth,
     one_look: bool,
@@ -333,7 +339,7 @@ struct Slicing<'a> {
 
 /// Some texels' colours, slice by slice.
 struct Block {
-    /// `[texel][slice]`, red, green and blue.
+    /// `[slice][texel]`, red, green and blue.
     colours: Vec<[f16; 3]>,
     /// The share of the pictures that showed the texel.
     shown: Vec<f32>,
@@ -380,15 +386,15 @@ impl Slicing<'_> {
         let (values, shown) = stack.gather(chunk);
         let curves = self.spline.curves(3 * chunk.len(), values);
         let slices = self.size.slices() as usize;
-        let order = self.symmetry.order() as usize;
-        let mut colours = Vec::with_capacity(chunk.len() * slices);
+        let order = self.symmetry.order() as f32;
+        let mut colours = vec![[f16::ZERO; 3]; chunk.len() * slices];
         let mut sums = vec![[0.0f32; 3]; slices];
         for (k, &texel) in chunk.iter().enumerate() {
             sums.fill([0.0; 3]);
-            self.add_directions(&self.footprints.texels[texel], |slice, turn| {
+            self.each_direction(&self.footprints.texels[texel], |slice, turn| {
                 let colour = curves.colour(&self.spline.position(turn), 3 * k);
                 for (sum, value) in sums[slice].iter_mut().zip(colour) {
-                    *sum += value / order as f32;
+                    *sum += value / order;
                 }
             });
             if self.one_look {
@@ -396,24 +402,23 @@ impl Slicing<'_> {
                     std::array::from_fn(|c| sums.iter().map(|sum| sum[c]).sum::<f32>() / slices as f32);
                 sums.fill(mean);
             }
-            colours.extend(sums.iter().map(|sum| sum.map(|value| f16::from_f32(value.min(65504.0)))));
+            for (colour, sum) in colours[k..].iter_mut().step_by(chunk.len()).zip(&sums) {
+                *colour = sum.map(|value| f16::from_f32(value.min(65504.0)));
+            }
         }
         Block { colours, shown }
     }
 
-    /// Calls `add` with each slice and each of the R turns at which the pictures show it.
-    fn add_directions(&self, texel: &Texel, mut add: impl FnMut(usize, f64)) {
-        use std::f64::consts::{PI, TAU};
+    /// Calls `read` with each slice and each of the R turns at which the pictures show it.
+    fn each_direction(&self, texel: &Texel, mut read: impl FnMut(usize, f64)) {
         let slices = self.size.slices() as usize;
-        let order = self.symmetry.order() as usize;
-        let directions = order * slices;
+        let all = self.directions.len();
         // Half a turn of the tangent is half a turn of the ball, at every normal.
-        let (reckoned, copies) =
-            if directions.is_multiple_of(2) { (directions / 2, 2) } else { (directions, 1) };
-        for direction in 0..reckoned {
-            let turn = reading_turn(texel, self.azimuth, TAU * direction as f64 / directions as f64);
+        let (reckoned, copies) = if all.is_multiple_of(2) { (all / 2, 2) } else { (all, 1) };
+        for (k, direction) in self.directions[..reckoned].iter().enumerate() {
+            let turn = reading_turn(texel, self.azimuth, direction);
             for copy in 0..copies {
-                add((direction + copy * reckoned) % slices, turn + PI * copy as f64);
+                read((k + copy * reckoned) % slices, turn + std::f64::consts::PI * copy as f64);
             }
         }
     }
@@ -427,9 +432,10 @@ impl Slicing<'_> {
         empty: T,
         encode: impl Fn([f16; 3], f32) -> T + Sync,
     ) -> Vec<T> {
-        let slices = self.size.slices() as usize;
-        let colour =
-            |texel: usize, slice: usize| blocks[texel / BLOCK].colours[(texel % BLOCK) * slices + slice];
+        let colour = |texel: usize, slice: usize| {
+            let block = &blocks[texel / BLOCK];
+            block.colours[slice * block.shown.len() + texel % BLOCK]
+        };
         let mut texels = vec![empty; self.size.texels()];
         texels.par_chunks_mut(self.size.slice_texels()).enumerate().for_each(|(slice, texels)| {
             for (k, texel) in self.footprints.texels.iter().enumerate() {

@@ -11,15 +11,18 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::resample::Texel;
-use super::turn::{Spline, Stack, reading_turn};
+use super::turn::{Direction, Spline, Stack, reading_turn};
 use crate::amc::Symmetry;
 use crate::view_space::Azimuth;
 
 /// The threshold on [`Similarity`] under which a symmetry is taken, unless another is given.
 pub const DEFAULT_THRESHOLD: f64 = 0.25;
 
-/// Texels along an axis that are looked at.
+/// Texels along an axis that are looked at; half as many where there are many pictures.
 const LATTICE: u32 = 64;
+
+/// From here on there are many pictures.
+const MANY: usize = 48;
 
 /// Variation along the turn below this, perceived, is none: half a step of 8 bits.
 const LEAST_VARIATION: f64 = 0.002;
@@ -102,7 +105,8 @@ pub(super) fn analyse(stack: &Stack, texels: &[Texel], side: u32, spline: &Splin
 /// the tangent plane is nearly one in the picture, so that half, third and quarter turns fall on measured angles or
 /// as near to them as they can, and little hangs on interpolating what was hardly sampled.
 fn lattice(texels: &[Texel], side: u32, pictures: usize) -> Vec<usize> {
-    let step = side.div_ceil(LATTICE).max(1);
+    let along = if pictures < MANY { LATTICE } else { LATTICE / 2 };
+    let step = side.div_ceil(along).max(1);
     let widest = (30.0 + (pictures as f64 - 16.0).max(0.0)).min(75.0);
     let least_z = widest.to_radians().cos();
     let chosen = |texel: &Texel| texel.i % step == 0 && texel.j % step == 0 && texel.m.z >= least_z;
@@ -131,15 +135,16 @@ impl Sums {
         let steps = if spline.len() <= 64 { 48 } else { 96 };
         let (values, shown) = stack.gather(chunk);
         let curves = spline.curves(3 * chunk.len(), values);
+        let directions: Vec<Direction> =
+            (0..steps).map(|s| Direction::new(TAU * s as f64 / steps as f64)).collect();
         let mut sums = Self::default();
         let mut look = vec![[0.0f32; 3]; steps];
         for (k, &texel) in chunk.iter().enumerate() {
             if shown[k] < 1.0 {
                 continue;
             }
-            for (s, look) in look.iter_mut().enumerate() {
-                let phi = TAU * s as f64 / steps as f64;
-                let turn = reading_turn(&texels[texel], Azimuth::Transported, phi);
+            for (look, direction) in look.iter_mut().zip(&directions) {
+                let turn = reading_turn(&texels[texel], Azimuth::Transported, direction);
                 *look = curves.colour(&spline.position(turn), 3 * k).map(perceived);
             }
             sums.add(&look);

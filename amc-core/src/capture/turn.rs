@@ -14,11 +14,13 @@ use crate::view_space::{Azimuth, transported_azimuth};
 
 /// The periodic cubic spline through values at some turns.
 pub(super) struct Spline {
-    /// The turns, radians in [0, 2 pi), rising.
+    /// The first turn, radians.
+    start: f64,
+    /// The turns from the first on, radians in [0, 2 pi), rising.
     turns: Vec<f64>,
     /// From each turn to the next, in mean steps.
     gaps: Vec<f64>,
-    /// The interval in which each of the bins of the turn starts.
+    /// The interval in which each bin of the turn starts.
     bins: Vec<u32>,
     /// The cyclic tridiagonal system of the second derivatives, factored (Thomas, Sherman and Morrison).
     system: System,
@@ -42,19 +44,20 @@ pub(super) struct Curves {
 
 impl Spline {
     /// Through `turns`: at least three, radians in [0, 2 pi), strictly rising.
-    pub(super) fn new(turns: Vec<f64>) -> Self {
+    pub(super) fn new(mut turns: Vec<f64>) -> Self {
         let count = turns.len();
+        let start = turns.first().copied().unwrap_or(0.0);
+        for turn in &mut turns {
+            *turn -= start;
+        }
         let step = TAU / count as f64;
-        let gap = |k: usize| if k + 1 < count { turns[k + 1] - turns[k] } else { turns[0] + TAU - turns[k] };
-        let gaps: Vec<f64> = (0..count).map(|k| gap(k) / step).collect();
+        let next = turns.iter().skip(1).copied().chain([TAU]);
+        let gaps: Vec<f64> = turns.iter().zip(next).map(|(from, to)| (to - from) / step).collect();
+        let bin_start = |bin: usize| TAU * bin as f64 / (4 * count) as f64;
         let bins = (0..4 * count)
-            .map(|bin| {
-                let at = TAU * bin as f64 / (4 * count) as f64;
-                // Turns before the first belong to the interval that crosses zero.
-                turns.partition_point(|&turn| turn <= at).checked_sub(1).unwrap_or(count - 1) as u32
-            })
+            .map(|bin| turns.partition_point(|&turn| turn <= bin_start(bin)).saturating_sub(1) as u32)
             .collect();
-        Self { system: System::new(&gaps), turns, gaps, bins }
+        Self { start, system: System::new(&gaps), turns, gaps, bins }
     }
 
     /// How many pictures.
@@ -69,25 +72,19 @@ impl Spline {
 
     /// Where a turn in radians lies.
     pub(super) fn position(&self, turn: f64) -> Position {
-        let turn = turn.rem_euclid(TAU);
+        let mut turn = turn - self.start;
+        if !(0.0..TAU).contains(&turn) {
+            turn -= TAU * (turn / TAU).floor();
+        }
         let count = self.turns.len();
-        let bin = ((turn / TAU * self.bins.len() as f64) as usize).min(self.bins.len() - 1);
+        let bin = ((turn * (self.bins.len() as f64 / TAU)) as usize).min(self.bins.len() - 1);
         let mut first = self.bins[bin] as usize;
-        // Within a bin there may be more turns; the interval that crosses zero has the end and the start of the turn.
-        if turn < self.turns[0] {
-            first = count - 1;
-        } else {
-            if first + 1 == count && turn < self.turns[first] {
-                first = 0;
-            }
-            while first + 1 < count && self.turns[first + 1] <= turn {
-                first += 1;
-            }
+        while first + 1 < count && self.turns[first + 1] <= turn {
+            first += 1;
         }
         let second = if first + 1 == count { 0 } else { first + 1 };
         let gap = self.gaps[first];
-        let along = (turn - self.turns[first]).rem_euclid(TAU) / (TAU / count as f64) / gap;
-        let along = along.clamp(0.0, 1.0);
+        let along = ((turn - self.turns[first]) * (count as f64 / TAU) / gap).clamp(0.0, 1.0);
         let before = 1.0 - along;
         let bend = |x: f64| ((x * x * x - x) * gap * gap / 6.0) as f32;
         Position { first, second, value: [before as f32, along as f32], bend: [bend(before), bend(along)] }
@@ -283,27 +280,42 @@ fn bridge(values: &mut [f32], lanes: usize, lane: usize) -> f32 {
     there.len() as f32 / count as f32
 }
 
-/// The turn at which the pictures show the texel's tangent of azimuth `phi`, radians.
+/// A direction in the table: its azimuth, radians, and that one's cosine and sine.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Direction {
+    phi: f32,
+    cos: f32,
+    sin: f32,
+}
+
+impl Direction {
+    pub(super) fn new(phi: f64) -> Self {
+        Self { phi: phi as f32, cos: phi.cos() as f32, sin: phi.sin() as f32 }
+    }
+}
+
+/// The turn, radians, at which the pictures show the texel's tangent of this azimuth.
 ///
 /// In the pictures the tangent is constant in the projection at the true normal m; the turn that takes m to the
 /// table's n leaves the transported azimuth as it is.
-pub(super) fn reading_turn(texel: &Texel, azimuth: Azimuth, phi: f64) -> f64 {
-    let transported = match azimuth {
-        Azimuth::Transported => phi,
+pub(super) fn reading_turn(texel: &Texel, azimuth: Azimuth, direction: &Direction) -> f64 {
+    match azimuth {
+        Azimuth::Transported => projected_at(texel.m, direction.cos, direction.sin),
         // Orthographic: the picture's own azimuth.
-        Azimuth::Projected if texel.n == texel.m => return phi,
+        Azimuth::Projected if texel.n == texel.m => f64::from(direction.phi),
         Azimuth::Projected => {
             let n = texel.n.as_vec3();
-            f64::from(transported_azimuth(n, Azimuth::Projected.tangent(n, phi as f32)))
+            let transported = transported_azimuth(n, Azimuth::Projected.tangent(n, direction.phi));
+            projected_at(texel.m, transported.cos(), transported.sin())
         }
-    };
-    projected_at(texel.m, transported)
+    }
 }
 
-fn projected_at(m: DVec3, transported: f64) -> f64 {
-    let (sin, cos) = transported.sin_cos();
+/// The projected azimuth, at the normal m, of the tangent whose transported azimuth has this cosine and sine.
+fn projected_at(m: DVec3, cos: f32, sin: f32) -> f64 {
+    let m = m.as_vec3();
     let d = (m.x * cos + m.y * sin) / (1.0 + m.z);
-    (sin - m.y * d).atan2(cos - m.x * d)
+    f64::from((sin - m.y * d).atan2(cos - m.x * d))
 }
 
 #[cfg(test)]
@@ -360,7 +372,7 @@ mod tests {
             let n = DVec3::new(0.1 * f64::from(k % 7), 0.08 * f64::from(k % 9) - 0.3, 1.0).normalize();
             let texel = Texel { i: 0, j: 0, n, m: n };
             let phi = f64::from(k) * 0.37;
-            let turn = reading_turn(&texel, Azimuth::Transported, phi);
+            let turn = reading_turn(&texel, Azimuth::Transported, &Direction::new(phi));
             // The tangent whose projection has the azimuth of the turn.
             let t = Azimuth::Projected.tangent(n.as_vec3(), turn as f32);
             let back = f64::from(transported_azimuth(n.as_vec3(), t));
