@@ -1,7 +1,7 @@
 //! The reference renderer, in plain Rust.
 //!
 //! It gives the same picture as the renderer on the graphics device, because it copies the device's rules: see
-//! [`raster`] for coverage, `quad` for derivatives, `target` for depth and resolve. Tiles are drawn in parallel, each with all
+//! `raster` for coverage, `quad` for derivatives, `target` for depth and resolve. Tiles are drawn in parallel, each with all
 //! of its triangles in order, so that the picture does not depend on the number of threads.
 
 mod assembly;
