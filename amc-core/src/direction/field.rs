@@ -60,7 +60,7 @@ impl Procedural {
             Field::Radial { origin } => (position - origin, (position - origin).length()),
         };
         let flat = vector - normal * normal.dot(vector);
-        if !(flat.length() > LEAST_SINE * length) {
+        if flat.length() <= LEAST_SINE * length {
             return Vec3::ZERO;
         }
         let unit = flat.normalize_or_zero();

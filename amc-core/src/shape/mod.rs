@@ -11,8 +11,11 @@ mod sheet;
 use crate::mesh::Mesh;
 use crate::{Error, Result};
 
-/// Every shape: its name and what makes it. A new shape is one line here and one file.
-const SHAPES: [(&str, fn() -> Mesh); 7] = [
+/// A shape's name and what makes it.
+type Shape = (&'static str, fn() -> Mesh);
+
+/// Every shape. A new shape is one line here and one file.
+const SHAPES: [Shape; 7] = [
     ("sphere", round::sphere),
     ("torus", round::torus),
     ("torus-poloidal", round::torus_poloidal),

@@ -26,9 +26,7 @@ const MINOR: f64 = 0.3;
 
 /// The ring faces +z: radii 0.7 and 0.3. u runs around the ring, counter-clockwise as the viewer sees it.
 pub(super) fn torus() -> Mesh {
-    grid::mesh("torus", [240, 96], [false; 2], |s, t| {
-        torus_point(s, t, |around, tube| DVec2::new(around, tube))
-    })
+    grid::mesh("torus", [240, 96], [false; 2], |s, t| torus_point(s, t, DVec2::new))
 }
 
 /// The same torus, vertex by vertex; u runs around the tube.
