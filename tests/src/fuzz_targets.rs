@@ -1,8 +1,6 @@
 //! What a fuzzer feeds. Each target takes any bytes and must end without a panic and without an allocation that the
 //! bytes do not justify. The fuzz crate drives them with new bytes; the test `crashes` with those that once failed.
 
-use std::path::Path;
-
 use amc_core::amc::Amc;
 use amc_core::capture::Session;
 use amc_core::mesh::{Garment, Mesh};
@@ -92,9 +90,4 @@ pub fn reflectance(bytes: &[u8]) {
 /// Whatever single file an AMC may come in: slice atlases, MatCaps.
 pub fn exchanged(bytes: &[u8]) {
     drop(exchange::parse(bytes));
-}
-
-/// The folder of inputs that once failed, one folder per target.
-pub fn crashes_folder() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/crashes"))
 }

@@ -1,11 +1,14 @@
 //! Every input that a fuzzer once broke a reader with, again.
 
-use studio_tests::fuzz_targets::{TARGETS, crashes_folder};
+use studio_tests::fuzz_targets::TARGETS;
+
+/// One folder per target.
+const CRASHES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/crashes");
 
 #[test]
 fn inputs_that_once_failed_are_refused_or_read() {
     let mut fed = 0;
-    for folder in std::fs::read_dir(crashes_folder()).unwrap() {
+    for folder in std::fs::read_dir(CRASHES).unwrap() {
         let folder = folder.unwrap().path();
         let name = folder.file_name().unwrap().to_str().unwrap();
         let (_, target) = TARGETS.iter().find(|(known, _)| *known == name).expect("a folder per target");

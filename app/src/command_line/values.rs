@@ -35,7 +35,8 @@ impl FromStr for Background {
             return Ok(Self(None));
         }
         let digits = text.trim_start_matches('#');
-        let value = (digits.len() == 6).then(|| u32::from_str_radix(digits, 16).ok()).flatten();
+        let well_formed = digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit());
+        let value = well_formed.then(|| u32::from_str_radix(digits, 16).ok()).flatten();
         let [_, red, green, blue] = value.ok_or("expected RRGGBB in hexadecimal, or none")?.to_be_bytes();
         let linear = |value: u8| amc_core::color::linear_from_srgb(f32::from(value) / 255.0);
         Ok(Self(Some([red, green, blue].map(linear))))

@@ -1,5 +1,8 @@
 //! What every fuzz target links: an allocator that takes an absurd allocation for a crash.
 
+#[path = "../../src/fuzz_targets.rs"]
+pub mod fuzz_targets;
+
 use std::alloc::{GlobalAlloc, Layout, System};
 
 /// The largest single allocation that an input of 64 KiB may cause, bytes.
