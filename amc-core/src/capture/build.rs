@@ -25,8 +25,8 @@ use crate::image::decode::{Raster, read_raster};
 use crate::view_space::Azimuth;
 use crate::{Error, Progress, Result};
 
-/// The most pictures kept to find the ball in, and the most bytes that they may take beyond the first few.
-const KEPT: usize = 8;
+/// The most pictures kept to find the ball in (an odd number: a cloth of even R shows each a different look), and the most bytes that they may take beyond the first few.
+const KEPT: usize = 5;
 const KEPT_BYTES: u64 = 64 << 20;
 
 /// The most bytes that the resampled texels of all pictures may take: 8 GiB.
