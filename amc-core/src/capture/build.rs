@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::DVec2;
 use half::f16;
+use half::slice::HalfFloatSliceExt as _;
 use rayon::prelude::*;
 
 use super::ball;
@@ -13,7 +14,7 @@ use super::cone::{Lens, Sight};
 use super::fill::RimFill;
 use super::pictures::{Plan, Planned};
 use super::report::{Ball, BuildReport};
-use super::resample::{Footprints, Texel};
+use super::resample::{Footprints, MOST_LIGHT, Texel};
 use super::session::Turn;
 use super::symmetry::{self, Analysis, DEFAULT_THRESHOLD};
 use super::turn::{Direction, Spline, Stack, reading_turn};
@@ -23,9 +24,9 @@ use crate::image::decode::{Raster, read_raster};
 use crate::view_space::Azimuth;
 use crate::{Error, Progress, Result};
 
-/// The most pictures kept to find the ball in, and the most bytes that they may take beyond the first few.
-const KEPT: usize = 8;
-const KEPT_BYTES: u64 = 128 << 20;
+/// The most pictures kept to find the ball in (an odd number: a cloth of even R shows each a different look), and the most bytes that they may take beyond the first few.
+const KEPT: usize = 5;
+const KEPT_BYTES: u64 = 64 << 20;
 
 /// The most bytes that the resampled texels of all pictures may take: 8 GiB.
 const MOST_STACK_BYTES: u64 = 8 << 30;
@@ -89,7 +90,7 @@ pub struct Built {
 ///
 /// `source` is a folder of at least 8 pictures in even steps over a whole turn, sorted as people count, or a session:
 /// a folder with `session.json`, or that file itself. Each picture is decoded once; memory holds one decoded picture
-/// per thread, a few kept to find the ball in, and the texels of all.
+/// per thread, a few kept to find the ball in and read meanwhile, and the texels of all.
 ///
 /// # Errors
 /// A file is missing, broken or of another size than the rest, the session is faulty, there are fewer than 8
@@ -98,13 +99,16 @@ pub fn build(source: &Path, options: &BuildOptions, progress: &Progress<'_>) -> 
     check(options)?;
     let plan = Plan::of(source, options.turn)?;
     let reading = Reading { plan: &plan, progress, done: AtomicUsize::new(0) };
-    let (first, kept) = reading.keep()?;
+    let (first, mut kept) = reading.keep()?;
     let lens = Lens::new(options.horizontal_fov, first.width(), first.height())?;
     let (sight, residual) = match options.sphere {
         Some((x, y, radius)) => (Sight::new(lens, DVec2::new(x, y), radius)?, None),
         None => {
             let rasters: Vec<&Raster> = kept.iter().map(|(_, raster)| raster).collect();
-            let found = ball::find(&rasters, lens).map_err(|error| error.in_file(source))?;
+            // The search is mostly one thread's work: the others read on meanwhile.
+            let (found, ahead) = rayon::join(|| ball::find(&rasters, lens), || reading.ahead(&first, &kept));
+            let found = found.map_err(|error| error.in_file(source))?;
+            kept.extend(ahead?);
             (found.sight, Some(found.residual))
         }
     };
@@ -270,14 +274,25 @@ impl<'a> Reading<'a> {
         let bytes = u64::from(raster.width()) * u64::from(raster.height()) * u64::from(raster.channels());
         let kept = ((KEPT_BYTES / bytes.max(1)) as usize).clamp(3, KEPT).min(pictures.len());
         let others: Vec<usize> = (1..kept).map(|k| k * pictures.len() / kept).collect();
-        let read = |&k: &usize| {
-            let raster = self.read(&pictures[k])?;
-            check_size(&first, &pictures[k].path, &raster)?;
-            Ok((k, raster))
-        };
-        let mut rasters: Vec<(usize, Raster)> = others.par_iter().map(read).collect::<Result<_>>()?;
+        let mut rasters: Vec<(usize, Raster)> =
+            others.par_iter().map(|&k| self.read_like(&first, k)).collect::<Result<_>>()?;
         rasters.insert(0, (0, raster));
         Ok((first, rasters))
+    }
+
+    /// Reads as many pictures more as are kept already.
+    fn ahead(&self, first: &First<'_>, kept: &[(usize, Raster)]) -> Result<Vec<(usize, Raster)>> {
+        let others = (0..self.plan.pictures.len()).filter(|k| kept.iter().all(|(other, _)| other != k));
+        let next: Vec<usize> = others.take(kept.len()).collect();
+        next.par_iter().map(|&k| self.read_like(first, k)).collect()
+    }
+
+    /// Reads a picture that must be of the first one's size.
+    fn read_like(&self, first: &First<'_>, k: usize) -> Result<(usize, Raster)> {
+        let planned = &self.plan.pictures[k];
+        let raster = self.read(planned)?;
+        check_size(first, &planned.path, &raster)?;
+        Ok((k, raster))
     }
 
     /// The texels of all pictures: of those kept, and of all others, each dropped as soon as it is resampled.
@@ -386,15 +401,16 @@ impl Slicing<'_> {
         let (values, shown) = stack.gather(chunk);
         let curves = self.spline.curves(3 * chunk.len(), values);
         let slices = self.size.slices() as usize;
-        let order = self.symmetry.order() as f32;
+        let share = 1.0 / self.symmetry.order() as f32;
         let mut colours = vec![[f16::ZERO; 3]; chunk.len() * slices];
         let mut sums = vec![[0.0f32; 3]; slices];
+        let mut halves = vec![[f16::ZERO; 3]; slices];
         for (k, &texel) in chunk.iter().enumerate() {
             sums.fill([0.0; 3]);
             self.each_direction(&self.footprints.texels[texel], |slice, turn| {
                 let colour = curves.colour(&self.spline.position(turn), 3 * k);
                 for (sum, value) in sums[slice].iter_mut().zip(colour) {
-                    *sum += value / order;
+                    *sum += value * share;
                 }
             });
             if self.one_look {
@@ -402,8 +418,12 @@ impl Slicing<'_> {
                     std::array::from_fn(|c| sums.iter().map(|sum| sum[c]).sum::<f32>() / slices as f32);
                 sums.fill(mean);
             }
-            for (colour, sum) in colours[k..].iter_mut().step_by(chunk.len()).zip(&sums) {
-                *colour = sum.map(|value| f16::from_f32(value.min(65504.0)));
+            for value in sums.as_flattened_mut() {
+                *value = value.min(MOST_LIGHT);
+            }
+            halves.as_flattened_mut().convert_from_f32_slice(sums.as_flattened());
+            for (colour, half) in colours[k..].iter_mut().step_by(chunk.len()).zip(&halves) {
+                *colour = *half;
             }
         }
         Block { colours, shown }

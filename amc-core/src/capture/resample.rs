@@ -23,7 +23,7 @@ const RIM: f64 = 1.4;
 const LEAST_SEEN: f64 = 0.5;
 
 /// The largest half float.
-const MOST_LIGHT: f32 = 65504.0;
+pub(super) const MOST_LIGHT: f32 = 65504.0;
 
 /// A texel that the camera sees.
 #[derive(Debug, Clone, Copy)]
@@ -161,11 +161,16 @@ impl Footprints {
                     r += weight * value[0];
                     g += weight * value[1];
                     b += weight * value[2];
-                    a += weight * value[3];
+                    if C.is_multiple_of(2) {
+                        a += weight * value[3];
+                    }
                 }
             }
             start = end;
-            if f64::from(a) < LEAST_SEEN {
+            if !C.is_multiple_of(2) {
+                // The weights sum to 1.
+                colours.extend([r, g, b].map(|value| value.clamp(0.0, MOST_LIGHT)));
+            } else if f64::from(a) < LEAST_SEEN {
                 colours.extend([f32::NAN; 3]);
             } else {
                 colours.extend([r, g, b].map(|value| (value / a).clamp(0.0, MOST_LIGHT)));

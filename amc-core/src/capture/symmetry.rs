@@ -109,7 +109,8 @@ fn lattice(texels: &[Texel], side: u32, pictures: usize) -> Vec<usize> {
     let step = side.div_ceil(along).max(1);
     let widest = (30.0 + (pictures as f64 - 16.0).max(0.0)).min(75.0);
     let least_z = widest.to_radians().cos();
-    let chosen = |texel: &Texel| texel.i % step == 0 && texel.j % step == 0 && texel.m.z >= least_z;
+    let chosen =
+        |texel: &Texel| texel.i.is_multiple_of(step) && texel.j.is_multiple_of(step) && texel.m.z >= least_z;
     texels.iter().enumerate().filter(|(_, texel)| chosen(texel)).map(|(k, _)| k).collect()
 }
 

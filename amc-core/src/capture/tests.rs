@@ -46,7 +46,7 @@ fn options() -> BuildOptions {
 
 #[test]
 fn an_orthographic_ball_comes_back_in_both_azimuths() {
-    let scene = Scene { pictures: 64, ..Scene::new(Lobes::woven()) };
+    let scene = Scene { pictures: 48, ..Scene::new(Lobes::woven()) };
     let folder = scene.write();
     for azimuth in [Azimuth::Transported, Azimuth::Projected] {
         let built = built(&folder, &BuildOptions { azimuth, ..options() });
@@ -60,7 +60,7 @@ fn an_orthographic_ball_comes_back_in_both_azimuths() {
 #[test]
 fn a_ball_near_and_off_the_axis_comes_back_in_both_frames() {
     let camera = Camera { fov_deg: 60.0, at: DVec2::new(190.0, 90.0), distance: 3.5 };
-    let scene = Scene { camera: Some(camera), pictures: 64, turn: Turn::Cw, ..Scene::new(Lobes::woven()) };
+    let scene = Scene { camera: Some(camera), pictures: 48, turn: Turn::Cw, ..Scene::new(Lobes::woven()) };
     let folder = scene.write();
     for (frame, azimuth) in [
         (Frame::Half, Azimuth::Transported),
@@ -105,7 +105,7 @@ fn the_symmetry_is_right_for_few_and_many_noisy_pictures() {
         (Lobes::felt(), Symmetry::One, true),
     ];
     for (cloth, symmetry, isotropic) in cloths {
-        for (pictures, noise) in [(8, 1.5), (15, 3.0), (37, 6.0), (64, 0.0)] {
+        for (pictures, noise) in [(8, 1.5), (15, 3.0), (37, 6.0), (50, 0.0)] {
             let scene = Scene { pictures, noise, ..Scene::small(cloth.clone()) };
             let built = built(&scene.write(), &BuildOptions { side: 32, ..BuildOptions::default() });
             let report = &built.report;

@@ -20,6 +20,8 @@ pub(super) struct Spline {
     turns: Vec<f64>,
     /// From each turn to the next, in mean steps.
     gaps: Vec<f64>,
+    /// One over each gap in radians.
+    rates: Vec<f64>,
     /// The interval in which each bin of the turn starts.
     bins: Vec<u32>,
     /// The cyclic tridiagonal system of the second derivatives, factored (Thomas, Sherman and Morrison).
@@ -57,7 +59,8 @@ impl Spline {
         let bins = (0..4 * count)
             .map(|bin| turns.partition_point(|&turn| turn <= bin_start(bin)).saturating_sub(1) as u32)
             .collect();
-        Self { start, system: System::new(&gaps), turns, gaps, bins }
+        let rates = gaps.iter().map(|gap| 1.0 / (gap * step)).collect();
+        Self { start, system: System::new(&gaps), turns, gaps, rates, bins }
     }
 
     /// How many pictures.
@@ -73,6 +76,12 @@ impl Spline {
     /// Where a turn in radians lies.
     pub(super) fn position(&self, turn: f64) -> Position {
         let mut turn = turn - self.start;
+        // Nearly always within one turn of the range: no division.
+        if turn < 0.0 {
+            turn += TAU;
+        } else if turn >= TAU {
+            turn -= TAU;
+        }
         if !(0.0..TAU).contains(&turn) {
             turn -= TAU * (turn / TAU).floor();
         }
@@ -84,7 +93,7 @@ impl Spline {
         }
         let second = if first + 1 == count { 0 } else { first + 1 };
         let gap = self.gaps[first];
-        let along = ((turn - self.turns[first]) * (count as f64 / TAU) / gap).clamp(0.0, 1.0);
+        let along = ((turn - self.turns[first]) * self.rates[first]).clamp(0.0, 1.0);
         let before = 1.0 - along;
         let bend = |x: f64| ((x * x * x - x) * gap * gap / 6.0) as f32;
         Position { first, second, value: [before as f32, along as f32], bend: [bend(before), bend(along)] }

@@ -113,7 +113,7 @@ impl Small {
         let step = mean.width().max(mean.height()).div_ceil(SIDE).max(1);
         let (width, height) = (mean.width() / step, mean.height() / step);
         // Of large blocks only every n-th pixel is read, to end at about 2 x 2 of them.
-        let stride = (step / 2).max(1);
+        let stride = step.div_ceil(2).max(1);
         let block = |x: usize, y: usize| {
             let mut sum = [0.0; 3];
             let mut count = 0.0;

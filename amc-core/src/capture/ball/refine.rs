@@ -222,7 +222,8 @@ fn step(sight: Sight, lens: Lens, points: &[EdgePoint], misses: &[f64], scale: f
         right += weighted * miss;
     }
     let size = normal_matrix.x_axis.x + normal_matrix.y_axis.y + normal_matrix.z_axis.z;
-    if !(normal_matrix.determinant() > 1e-9 * size.powi(3)) {
+    let determinant = normal_matrix.determinant();
+    if determinant.is_nan() || determinant <= 1e-9 * size.powi(3) {
         return None;
     }
     let change = normal_matrix.inverse() * right;

@@ -1,6 +1,7 @@
 //! A small renderer of a cloth-covered ball under distant lights.
 
 use std::f64::consts::{PI, TAU};
+use std::io::Write as _;
 
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use rayon::prelude::*;
@@ -187,10 +188,10 @@ impl Scene {
         DVec3::new(cos * normal.z, sin * normal.z, -(normal.x * cos + normal.y * sin)).normalize_or(DVec3::X)
     }
 
-    fn shade(&self, normal: DVec3, eye: DVec3, angle: f64) -> [f64; 3] {
-        let axes = self.axes();
-        let tangent = Self::tangent(normal, angle);
-        self.cloth.shade(axes * normal, axes * tangent, axes * eye, &self.lights())
+    /// The lights, in the axes about the ball.
+    fn lights_about(&self) -> Vec<(DVec3, f64)> {
+        let back = self.axes().inverse();
+        self.lights().into_iter().map(|(light, strength)| (back * light, strength)).collect()
     }
 
     /// Where the line to the ball's centre meets the picture, and its outline's mean semi-axis.
@@ -211,6 +212,7 @@ impl Scene {
         let (at, radius) = self.ball();
         let mut random = Random(7);
         let mut probes = Vec::new();
+        let lights = self.lights_about();
         while probes.len() < count {
             let pixel = at + (DVec2::new(random.next(), random.next()) * 2.0 - 1.0) * radius * 1.1;
             let angle = random.next() * TAU;
@@ -219,7 +221,8 @@ impl Scene {
             if normal.dot(eye) < 0.25 {
                 continue;
             }
-            let colour = self.shade(normal, eye, angle).map(|value| value.min(1.0));
+            let shaded = self.cloth.shade(normal, Self::tangent(normal, angle), eye, &lights);
+            let colour = shaded.map(|value| value.min(1.0));
             let towards = if frame == Frame::Full { eye } else { (eye + DVec3::Z).normalize() };
             let turn = DQuat::from_rotation_arc(towards, DVec3::Z);
             let tangent = (turn * Self::tangent(normal, angle)).as_vec3();
@@ -231,9 +234,11 @@ impl Scene {
     /// Writes the pictures, and a session where the angles ask for one.
     pub(super) fn write(&self) -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
+        let all = (0..self.width * self.height).into_par_iter();
+        let hits: Vec<Hits> = all.map(|k| self.hits(k % self.width, k / self.width)).collect();
         (0..self.pictures).into_par_iter().for_each(|k| {
-            crate::file::save_bytes(&folder.path().join(format!("picture{k}.png")), &self.picture(k))
-                .unwrap();
+            let path = folder.path().join(format!("picture{k}.png"));
+            std::fs::File::create(path).unwrap().write_all(&self.picture(k, &hits)).unwrap();
         });
         if self.uneven {
             let pictures: Vec<_> = (0..self.pictures)
@@ -246,20 +251,20 @@ impl Scene {
         folder
     }
 
-    fn picture(&self, k: usize) -> Vec<u8> {
+    fn picture(&self, k: usize, hits: &[Hits]) -> Vec<u8> {
         let mut random = Random(k as u64 + 1);
         let angle = self.turn.sign() * self.angle(k);
+        let lights = self.lights_about();
         let mut samples = Vec::new();
-        for y in 0..self.height {
-            for x in 0..self.width {
-                let (colour, coverage) = self.pixel(f64::from(x), f64::from(y), angle);
-                let noise = self.noise / 255.0;
-                let encoded =
-                    colour.map(|value| f64::from(srgb_from_linear(value as f32)) + noise * random.normal());
-                samples.extend(encoded.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8));
-                if self.alpha {
-                    samples.push((coverage * 255.0).round() as u8);
-                }
+        for (k, hits) in (0..).zip(hits) {
+            let colour = self.colour(k % self.width, k / self.width, hits, angle, &lights);
+            let mut encoded = colour.map(|value| f64::from(srgb_from_linear(value as f32)));
+            if self.noise > 0.0 {
+                encoded = encoded.map(|value| value + self.noise / 255.0 * random.normal());
+            }
+            samples.extend(encoded.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8));
+            if self.alpha {
+                samples.push((hits.coverage() * 255.0).round() as u8);
             }
         }
         let mut bytes = Vec::new();
@@ -271,31 +276,46 @@ impl Scene {
         bytes
     }
 
-    /// A pixel's colour, straight where there is alpha, and its coverage.
-    fn pixel(&self, x: f64, y: f64, angle: f64) -> ([f64; 3], f64) {
+    /// Where the ball is hit inside of a pixel: 6 x 6 times at its rim.
+    fn hits(&self, x: u32, y: u32) -> Hits {
+        let at = |u: f64, v: f64| self.hit(DVec2::new(f64::from(x) + u, f64::from(y) + v));
         let corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0), (0.5, 0.5)];
-        let inside = corners.iter().filter(|(u, v)| self.hit(DVec2::new(x + u, y + v)).is_some()).count();
-        let steps = if inside == 0 || inside == 5 { 1 } else { 6 };
+        let inside = corners.iter().filter(|&&(u, v)| at(u, v).is_some()).count();
+        let steps: usize = if inside == 0 || inside == 5 { 1 } else { 6 };
+        let middle = |k: usize| (k as f64 + 0.5) / steps as f64;
+        let hits = (0..steps * steps).filter_map(|k| at(middle(k % steps), middle(k / steps))).collect();
+        Hits { hits, tried: steps * steps }
+    }
+
+    /// A pixel's colour, straight where there is alpha.
+    fn colour(&self, x: u32, y: u32, hits: &Hits, angle: f64, lights: &[(DVec3, f64)]) -> [f64; 3] {
         let mut sum = [0.0; 3];
-        let mut covered = 0.0;
-        for k in 0..steps * steps {
-            let at = |k: usize| (k as f64 + 0.5) / steps as f64;
-            if let Some((normal, eye)) = self.hit(DVec2::new(x + at(k % steps), y + at(k / steps))) {
-                for (sum, value) in sum.iter_mut().zip(self.shade(normal, eye, angle)) {
-                    *sum += value;
-                }
-                covered += 1.0;
+        for &(normal, eye) in &hits.hits {
+            let shaded = self.cloth.shade(normal, Self::tangent(normal, angle), eye, lights);
+            for (sum, value) in sum.iter_mut().zip(shaded) {
+                *sum += value;
             }
         }
-        let all = (steps * steps) as f64;
         if self.alpha {
-            return (sum.map(|value| value / f64::max(covered, 1.0)), covered / all);
+            return sum.map(|value| value / hits.hits.len().max(1) as f64);
         }
         let middle = DVec2::new(f64::from(self.width), f64::from(self.height)) / 2.0;
-        let dark =
-            1.0 - self.vignette * (DVec2::new(x, y) - middle).length_squared() / middle.length_squared();
-        let background = self.background * (all - covered);
-        (sum.map(|value| (value + background) / all * dark), 1.0)
+        let off =
+            (DVec2::new(f64::from(x), f64::from(y)) - middle).length_squared() / middle.length_squared();
+        let background = self.background * (1.0 - hits.coverage());
+        sum.map(|value| (value / hits.tried as f64 + background) * (1.0 - self.vignette * off))
+    }
+}
+
+/// The normals that a pixel shows and the directions to the eye, in the axes about the ball.
+struct Hits {
+    hits: Vec<(DVec3, DVec3)>,
+    tried: usize,
+}
+
+impl Hits {
+    fn coverage(&self) -> f64 {
+        self.hits.len() as f64 / self.tried as f64
     }
 }
 
