@@ -3,10 +3,12 @@
 mod fabric;
 mod garment;
 mod look;
+mod panel_option;
 
 pub(crate) use fabric::Fabrics;
 pub(crate) use garment::load_garment;
 pub(crate) use look::{PanelLook, directions, panel_looks};
+pub(crate) use panel_option::PanelOption;
 
 use amc_core::mesh::Garment;
 use amc_core::render::{Cloth, Drawing};

@@ -8,7 +8,6 @@ mod convert;
 mod demo;
 mod inspect;
 mod output;
-pub(crate) mod panel_option;
 mod progress;
 mod render;
 mod tangents;

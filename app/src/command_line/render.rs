@@ -10,11 +10,10 @@ use amc_core::{Error, Progress, Result};
 use clap::ValueEnum;
 
 use super::output::Output;
-use super::panel_option::PanelOption;
 use super::progress::with_progress;
 use super::values::{Background, PictureSize, finite, unit};
 use super::{Failure, Outcome};
-use crate::scene::{Fabrics, drawing, load_garment, panel_looks};
+use crate::scene::{Fabrics, PanelOption, drawing, load_garment, panel_looks};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {

@@ -7,10 +7,9 @@ use amc_core::{Progress, direction, export};
 
 use super::Outcome;
 use super::output::Output;
-use super::panel_option::PanelOption;
 use super::render::refuse_projects;
 use super::values::unit;
-use crate::scene::{directions, load_garment, panel_looks};
+use crate::scene::{PanelOption, directions, load_garment, panel_looks};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {

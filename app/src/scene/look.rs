@@ -8,7 +8,7 @@ use amc_core::{Error, Progress, Result};
 use glam::Vec3;
 
 use super::Fabrics;
-use crate::command_line::panel_option::{PanelOption, SourceName};
+use super::panel_option::{PanelOption, SourceName};
 
 /// One panel's fabric (none: plain grey) and direction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -1,4 +1,4 @@
-//! `--panel ID|all[,amc=FILE][,angle=DEG][,source=...]`.
+//! What is said of one panel, or of all, in one line: `ID|all[,amc=FILE][,angle=DEG][,source=...]`.
 
 use std::path::PathBuf;
 use std::str::FromStr;
