@@ -4,16 +4,15 @@ use std::ops::Range;
 
 use glam::{Vec2, Vec3};
 
-use super::check::vector_area;
 use super::panel::{PanelFlags, Percentiles};
 
-/// The map from the flat pattern to the surface on one triangle.
+/// The first fundamental form of the map from the flat pattern to the surface on one triangle: `|dP/du|^2`,
+/// `dP/du . dP/dv`, `|dP/dv|^2`, in square metres.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct UvMap {
-    /// dP/du, metres.
-    pub(super) du: Vec3,
-    /// dP/dv, metres.
-    pub(super) dv: Vec3,
+struct Form {
+    e: f32,
+    f: f32,
+    g: f32,
 }
 
 /// Twice the signed area of a triangle in the flat pattern; zero where it is lost in rounding.
@@ -27,25 +26,26 @@ pub(super) fn uv_area([a, b, c]: [Vec2; 3]) -> f32 {
     if area.abs() > lost && area.is_finite() { area } else { 0.0 }
 }
 
-/// The map of a triangle whose [`uv_area`] is not zero.
-pub(super) fn uv_map([p, q, r]: [Vec3; 3], [a, b, c]: [Vec2; 3], area: f32) -> UvMap {
-    let (pq, pr, ab, ac) = (q - p, r - p, b - a, c - a);
-    UvMap { du: (pq * ac.y - pr * ab.y) / area, dv: (pr * ab.x - pq * ac.x) / area }
-}
+impl Form {
+    /// Of a triangle whose [`uv_area`] is not zero.
+    fn new([p, q, r]: [Vec3; 3], [a, b, c]: [Vec2; 3], area: f32) -> Self {
+        let (pq, pr, ab, ac) = (q - p, r - p, b - a, c - a);
+        let inverse = 1.0 / area;
+        let du = (pq * ac.y - pr * ab.y) * inverse;
+        let dv = (pr * ab.x - pq * ac.x) * inverse;
+        Self { e: du.length_squared(), f: du.dot(dv), g: dv.length_squared() }
+    }
 
-impl UvMap {
-    /// The larger singular value, metres per unit of the UV map.
+    /// The larger singular value of the map, metres per unit of the UV map.
     fn larger_singular_value(self) -> f32 {
-        // The eigenvalues of the first fundamental form (E F; F G).
-        let (e, f, g) = (self.du.length_squared(), self.du.dot(self.dv), self.dv.length_squared());
-        let (mean, difference) = (0.5 * (e + g), 0.5 * (e - g));
-        (mean + (difference * difference + f * f).sqrt()).sqrt()
+        // The singular values are the roots of the form's eigenvalues.
+        let (mean, difference) = (0.5 * (self.e + self.g), 0.5 * (self.e - self.g));
+        (mean + (difference * difference + self.f * self.f).sqrt()).sqrt()
     }
 
     /// (1 - cos)/2 of the angle between dP/du and dP/dv: grows with the angle, from 0 to 1.
     fn shear_key(self) -> f32 {
-        let lengths = (self.du.length_squared() * self.dv.length_squared()).sqrt();
-        0.5 - 0.5 * (self.du.dot(self.dv) / lengths).clamp(-1.0, 1.0)
+        0.5 - 0.5 * (self.f / (self.e * self.g).sqrt()).clamp(-1.0, 1.0)
     }
 }
 
@@ -80,7 +80,8 @@ pub(super) fn measure(
     for &triangle in &triangles[range] {
         let corners = triangle.map(|i| positions[i as usize]);
         let corner_uvs = triangle.map(|i| uvs[i as usize]);
-        let size = 0.5 * vector_area(positions, triangle).unwrap_or(Vec3::ZERO).length();
+        let [p, q, r] = corners;
+        let size = 0.5 * (q - p).cross(r - p).length();
         area += f64::from(size);
         moment += ((corners[0] + corners[1] + corners[2]) * (size / 3.0)).as_dvec3();
         for uv in corner_uvs {
@@ -90,14 +91,14 @@ pub(super) fn measure(
         if uv_size == 0.0 {
             continue;
         }
-        let map = uv_map(corners, corner_uvs, uv_size);
+        let map = Form::new(corners, corner_uvs, uv_size);
         let (larger, key) = (map.larger_singular_value(), map.shear_key());
         if !(larger.is_finite() && key.is_finite()) {
             continue;
         }
         flat_area += f64::from(size);
         mirrored += if uv_size < 0.0 { f64::from(size) } else { 0.0 };
-        scale += f64::from(size) * f64::from(2.0 * size / uv_size.abs()).sqrt();
+        scale += f64::from(size * (2.0 * size / uv_size.abs()).sqrt());
         stretch.push((larger, size));
         shear.push((key, size));
     }
