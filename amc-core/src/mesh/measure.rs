@@ -156,10 +156,10 @@ pub(super) fn measure(
         let measured = batch.measure();
         let (mut batch_area, mut batch_mirrored, mut batch_scale) = (0.0f32, 0.0f32, 0.0f32);
         let mut batch_moment = Vec3::ZERO;
-        for i in 0..triangles.len() {
+        for (i, &sum) in sums[..triangles.len()].iter().enumerate() {
             let size = measured.size[i];
             batch_area += size;
-            batch_moment += sums[i] * size;
+            batch_moment += sum * size;
             let (value, key) = (measured.larger[i], measured.shear_key[i]);
             if measured.uv_area[i] != 0.0 && value.is_finite() && key.is_finite() {
                 batch_mirrored += if measured.uv_area[i] < 0.0 { size } else { 0.0 };
