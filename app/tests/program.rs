@@ -182,7 +182,10 @@ fn bad_input_gives_one_line_that_names_file_and_reason() {
     write("cut.glb", b"glTF\x02\x00\x00\x00\xff\xff\xff\x7f");
     write("noise.amc.ktx2", &[7; 300]);
     write("camera.json", b"{\"world_to_view\": [1, 2]}");
-    write("reflectance.json", b"{\"version\": 1, \"name\": \"x\", \"model\": \"gold leaf\", \"parameters\": {}}");
+    write(
+        "reflectance.json",
+        b"{\"version\": 1, \"name\": \"x\", \"model\": \"gold leaf\", \"parameters\": {}}",
+    );
     for (arguments, names) in [
         (&["inspect", "missing.obj"][..], "missing.obj"),
         (&["inspect", "point.obj"], "point.obj"),

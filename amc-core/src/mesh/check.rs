@@ -10,17 +10,16 @@ use crate::{Error, Result};
 /// Triangles that one task looks at.
 const CHUNK: usize = 16 * 1024;
 
-/// Twice the area below which a triangle has none, as a share of its longest edge squared: a few roundings.
-const NO_AREA: f32 = 1e-7;
+/// Sine of the angle between two edges below which a triangle has no area: a few roundings.
+const NO_ANGLE: f32 = 1e-7;
 
 /// Twice the vector area of a triangle; none for one that has no area or uses a vertex twice.
 pub(super) fn vector_area(positions: &[Vec3], [a, b, c]: [u32; 3]) -> Option<Vec3> {
     let [a, b, c] = [a, b, c].map(|i| positions[i as usize]);
     let (ab, ac) = (b - a, c - a);
     let cross = ab.cross(ac);
-    let longest = ab.length_squared().max(ac.length_squared()).max((c - b).length_squared());
-    (cross.length_squared() > (NO_AREA * longest) * (NO_AREA * longest) && cross.length_squared() > 0.0)
-        .then_some(cross)
+    let least = (NO_ANGLE * NO_ANGLE) * (ab.length_squared() * ac.length_squared());
+    (cross.length_squared() > least).then_some(cross)
 }
 
 /// What a look at some triangles found.

@@ -124,7 +124,7 @@ fn place_digits(figures: &Figures) -> String {
 
 /// A number that tells places apart, mirrored ones too; near ones are near, so a rounding does not change an order.
 fn in_space(figures: &Figures) -> f32 {
-    figures.centre.dot(glam::Vec3::new(1.0, 0.3183, 0.1013))
+    figures.centre.dot(glam::Vec3::new(1.0, 0.31, 0.11))
 }
 
 /// From the top of the flat pattern down; u tells apart what lies side by side.

@@ -11,6 +11,8 @@ pub(super) struct Islands {
     pub(super) of_triangle: Vec<u32>,
     /// How many there are.
     pub(super) count: usize,
+    /// Whether some vertex is used by no triangle.
+    pub(super) unused: bool,
 }
 
 /// Above this many pieces it is quicker to compare all vertices than all pairs of pieces.
@@ -41,10 +43,10 @@ pub(super) fn find(
         }
     }
     if changed {
-        let (of_triangle, count) = number(&mut forest, triangles, positions.len());
-        return Islands { of_triangle, count };
+        let (of_triangle, _, count) = number(&mut forest, triangles, positions.len());
+        return Islands { of_triangle, count, unused: pieces.unused };
     }
-    Islands { of_triangle: pieces.of_triangle, count: pieces.parts.len() }
+    Islands { of_triangle: pieces.of_triangle, count: pieces.parts.len(), unused: pieces.unused }
 }
 
 fn connect(triangles: &[[u32; 3]], count: usize) -> Forest {
@@ -56,8 +58,8 @@ fn connect(triangles: &[[u32; 3]], count: usize) -> Forest {
     forest
 }
 
-/// Numbers the sets in the order of their first triangles.
-fn number(forest: &mut Forest, triangles: &[[u32; 3]], count: usize) -> (Vec<u32>, usize) {
+/// Numbers the sets in the order of their first triangles: the number of each triangle, of each root, and how many.
+fn number(forest: &mut Forest, triangles: &[[u32; 3]], count: usize) -> (Vec<u32>, Vec<u32>, usize) {
     let mut numbers = vec![u32::MAX; count];
     let mut next = 0;
     let of_triangle = triangles
@@ -71,7 +73,7 @@ fn number(forest: &mut Forest, triangles: &[[u32; 3]], count: usize) -> (Vec<u32
             *number
         })
         .collect();
-    (of_triangle, next as usize)
+    (of_triangle, numbers, next as usize)
 }
 
 /// The pieces connected by their indices alone.
@@ -81,20 +83,22 @@ struct Pieces {
     parts: Vec<u32>,
     /// The piece of each vertex; `u32::MAX` where no triangle uses it.
     of_vertex: Vec<u32>,
+    unused: bool,
 }
 
 impl Pieces {
     fn new(forest: &mut Forest, triangles: &[[u32; 3]], parts: &[u32], vertices: usize) -> Self {
-        let (of_triangle, count) = number(forest, triangles, vertices);
+        let (of_triangle, mut numbers, count) = number(forest, triangles, vertices);
         let mut part_of = vec![0; count];
-        let mut of_vertex = vec![u32::MAX; vertices];
-        for ((triangle, &piece), &part) in triangles.iter().zip(&of_triangle).zip(parts) {
+        for (&piece, &part) in of_triangle.iter().zip(parts) {
             part_of[piece as usize] = part;
-            for &corner in triangle {
-                of_vertex[corner as usize] = piece;
-            }
         }
-        Self { of_triangle, parts: part_of, of_vertex }
+        // A root is the least of its set: its number is there before the others ask for it.
+        for vertex in 0..vertices as u32 {
+            numbers[vertex as usize] = numbers[forest.root(vertex) as usize];
+        }
+        let unused = numbers.contains(&u32::MAX);
+        Self { of_triangle, parts: part_of, of_vertex: numbers, unused }
     }
 }
 

@@ -101,9 +101,11 @@ impl Garment {
         let whole = parts_without_uvs(&mesh, &uvs);
         let islands = islands::find(&mesh.positions, &uvs, &mesh.triangles, &mesh.triangle_parts, &whole);
         let classes = orientation_classes(&uvs, &mesh.triangles, &islands.of_triangle);
-        let done = split(&mut mesh.triangles, mesh.positions.len(), |t, _| classes[t]);
-        append(&mut mesh, &mut uvs, &done.copies);
-        if done.unused {
+        if has_mixed_island(&classes, islands.count) {
+            let done = split(&mut mesh.triangles, mesh.positions.len(), |t, _| classes[t]);
+            append(&mut mesh, &mut uvs, &done.copies);
+        }
+        if islands.unused {
             drop_unused(&mut mesh, &mut uvs);
         }
 
@@ -195,6 +197,15 @@ fn orientation_classes(uvs: &[Vec2], triangles: &[[u32; 3]], islands: &[u32]) ->
         follow_neighbours(uvs.len(), triangles, islands, &mut classes, flat);
     }
     classes
+}
+
+/// Whether some island has triangles of both UV orientations; islands themselves share no vertex.
+fn has_mixed_island(classes: &[u32], islands: usize) -> bool {
+    let mut seen = vec![false; islands * 2];
+    for &class in classes {
+        seen[class as usize] = true;
+    }
+    seen.as_chunks::<2>().0.contains(&[true; 2])
 }
 
 /// Gives each of the `flat` triangles an orientation that one of its vertices has; spreads over areas of them.

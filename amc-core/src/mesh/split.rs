@@ -6,8 +6,6 @@ use std::collections::HashMap;
 pub(super) struct Split {
     /// For each vertex appended after the old ones, the vertex it copies.
     pub(super) copies: Vec<u32>,
-    /// Whether some old vertex is used by no triangle.
-    pub(super) unused: bool,
 }
 
 /// Renumbers the corners of `triangles` over `vertices` vertices so that no vertex is used under two classes.
@@ -37,7 +35,7 @@ pub(super) fn split(
             }
         }
     }
-    Split { copies, unused: owners.contains(&NOBODY) }
+    Split { copies }
 }
 
 /// Appends the copies that a [`Split`] asks for to one attribute.
@@ -59,6 +57,5 @@ mod tests {
         let done = split(&mut triangles, 6, |t, _| classes[t]);
         assert_eq!(triangles, [[0, 1, 2], [6, 7, 3], [7, 3, 4]]);
         assert_eq!(done.copies, [2, 1]);
-        assert!(done.unused);
     }
 }

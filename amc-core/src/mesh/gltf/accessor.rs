@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use bytemuck::Pod;
 use gltf::Accessor;
 use gltf::accessor::sparse::IndexType;
 use gltf::accessor::{DataType, Dimensions};
@@ -48,11 +49,15 @@ impl<'b> Items<'b> {
     }
 }
 
-/// Vectors of `N` floats: 32-bit, or 8 and 16-bit integers, normalised where the accessor says so.
-pub(super) fn vectors<const N: usize>(
+/// Vectors of `N` floats: 32-bit, or 8 and 16-bit integers, normalised where the accessor says so. Appended to `out`.
+pub(super) fn vectors<const N: usize, V>(
     accessor: &Accessor<'_>,
     buffers: &[Cow<'_, [u8]>],
-) -> Result<Vec<[f32; N]>> {
+    out: &mut Vec<V>,
+) -> Result<()>
+where
+    V: Pod + From<[f32; N]>,
+{
     let wanted = match N {
         2 => Dimensions::Vec2,
         _ => Dimensions::Vec3,
@@ -60,8 +65,11 @@ pub(super) fn vectors<const N: usize>(
     if accessor.dimensions() != wanted {
         return Err(Error::malformed(format!("{:?} where {wanted:?} is needed", accessor.dimensions())));
     }
+    if accessor.data_type() == DataType::F32 && append_as_it_is(accessor, buffers, out)? {
+        return Ok(());
+    }
     let normalized = accessor.normalized();
-    match (accessor.data_type(), normalized) {
+    let vectors: Vec<[f32; N]> = match (accessor.data_type(), normalized) {
         (DataType::F32, _) => read(accessor, buffers, |b: [u8; 4]| f32::from_le_bytes(b)),
         (DataType::I8, false) => read(accessor, buffers, |[b]: [u8; 1]| f32::from(b as i8)),
         (DataType::U8, false) => read(accessor, buffers, |[b]: [u8; 1]| f32::from(b)),
@@ -78,13 +86,19 @@ pub(super) fn vectors<const N: usize>(
             read(accessor, buffers, |b: [u8; 2]| f32::from(u16::from_le_bytes(b)) / 65535.0)
         }
         (DataType::U32, _) => Err(Error::malformed("32-bit integers where floats are needed")),
-    }
+    }?;
+    out.extend(vectors.into_iter().map(V::from));
+    Ok(())
 }
 
 /// Indices of any width.
 pub(super) fn indices(accessor: &Accessor<'_>, buffers: &[Cow<'_, [u8]>]) -> Result<Vec<u32>> {
     if accessor.dimensions() != Dimensions::Scalar {
         return Err(Error::malformed("indices that are not scalars"));
+    }
+    let mut plain = Vec::new();
+    if accessor.data_type() == DataType::U32 && append_as_it_is(accessor, buffers, &mut plain)? {
+        return Ok(plain);
     }
     let vectors: Vec<[u32; 1]> = match accessor.data_type() {
         DataType::U8 => read(accessor, buffers, |[b]: [u8; 1]| u32::from(b)),
@@ -93,6 +107,27 @@ pub(super) fn indices(accessor: &Accessor<'_>, buffers: &[Cow<'_, [u8]>]) -> Res
         other => Err(Error::malformed(format!("indices of type {other:?}"))),
     }?;
     Ok(vectors.into_iter().flatten().collect())
+}
+
+/// Appends items that lie in the buffer as they do in memory; false where they do not.
+fn append_as_it_is<V: Pod>(
+    accessor: &Accessor<'_>,
+    buffers: &[Cow<'_, [u8]>],
+    out: &mut Vec<V>,
+) -> Result<bool> {
+    let size = size_of::<V>();
+    let Some(view) = accessor.view().filter(|view| {
+        cfg!(target_endian = "little")
+            && accessor.sparse().is_none()
+            && view.stride().is_none_or(|stride| stride == size)
+    }) else {
+        return Ok(false);
+    };
+    let items = Items::new(buffers, &view, accessor.offset(), accessor.count(), size)?;
+    let first = out.len();
+    out.resize(first + accessor.count(), V::zeroed());
+    bytemuck::cast_slice_mut(&mut out[first..]).copy_from_slice(items.bytes);
+    Ok(true)
 }
 
 /// All items of an accessor, components of `W` bytes turned by `decode`; sparse ones in their places.

@@ -30,10 +30,12 @@ pub fn parse(bytes: &[u8], resolve: Resolve<'_>) -> Result<Mesh> {
     let mut left_out = 0;
     // An instance costs a few bytes of JSON and a whole mesh of memory.
     let budget = bytes.len() + buffers.iter().map(|buffer| buffer.len()).sum::<usize>() + (1 << 20);
-    for instance in scene::instances(&document)? {
+    let instances = scene::instances(&document)?;
+    primitive::reserve(&mut draft, &instances, budget);
+    for instance in &instances {
         for primitive in instance.mesh.primitives() {
             let place = format!("mesh {}, primitive {}", instance.mesh.index(), primitive.index());
-            let read = primitive::append(&mut draft, &primitive, &instance, &buffers);
+            let read = primitive::append(&mut draft, &primitive, instance, &buffers);
             left_out += usize::from(!read.map_err(|error| error.at_element(place.clone()))?);
             if draft.positions.len().max(draft.triangles.len()) > budget {
                 return Err(Error::too_large("more copies of meshes than the file's size justifies")

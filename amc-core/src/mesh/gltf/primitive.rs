@@ -10,7 +10,7 @@ use serde::Deserialize;
 use super::accessor::{indices, vectors};
 use super::scene::Instance;
 use crate::mesh::Part;
-use crate::mesh::draft::{Draft, DraftPart, check_position, clean_name};
+use crate::mesh::draft::{COORDINATE_LIMIT, Draft, DraftPart, check_position, clean_name};
 use crate::mesh::fabric_words::names_no_fabric;
 use crate::{Error, Result};
 
@@ -27,6 +27,23 @@ struct AmcExtras {
     fabric: Option<bool>,
 }
 
+/// Makes room for all instances, as far as `budget` allows what they say of themselves.
+pub(super) fn reserve(draft: &mut Draft, instances: &[Instance<'_>], budget: usize) {
+    let (mut vertices, mut corners) = (0usize, 0usize);
+    for primitive in instances.iter().flat_map(|instance| instance.mesh.primitives()) {
+        let count = primitive.get(&gltf::Semantic::Positions).map_or(0, |accessor| accessor.count());
+        vertices = vertices.saturating_add(count);
+        corners = corners.saturating_add(primitive.indices().map_or(count, |accessor| accessor.count()));
+    }
+    // A vertex takes 12 bytes in the file, or 4 quantised, and a corner at least one.
+    if vertices <= budget / 4 && corners / 3 <= budget / 3 {
+        draft.positions.reserve_exact(vertices);
+        draft.normals.reserve_exact(vertices);
+        draft.uvs.reserve_exact(vertices);
+        draft.triangles.reserve_exact(corners / 3);
+    }
+}
+
 /// Appends a primitive as a part; false if it has no triangles to append.
 pub(super) fn append(
     draft: &mut Draft,
@@ -38,42 +55,44 @@ pub(super) fn append(
         return Ok(false);
     }
     let named = |what: &'static str| move |error: Error| Error::new(error.kind(), format!("{what}: {error}"));
+    let (vertices, triangles) = (draft.positions.len(), draft.triangles.len());
     let accessor =
         primitive.get(&gltf::Semantic::Positions).ok_or_else(|| Error::malformed("no positions"))?;
-    let positions = vectors::<3>(&accessor, buffers).map_err(named("positions"))?;
-    let count = positions.len();
+    vectors::<3, Vec3>(&accessor, buffers, &mut draft.positions).map_err(named("positions"))?;
+    let count = draft.positions.len() - vertices;
     let normals = primitive.get(&gltf::Semantic::Normals);
-    let normals = normals.map(|a| vectors::<3>(&a, buffers)).transpose().map_err(named("normals"))?;
+    if let Some(accessor) = &normals {
+        vectors::<3, Vec3>(accessor, buffers, &mut draft.normals).map_err(named("normals"))?;
+    }
     let uvs = primitive.get(&gltf::Semantic::TexCoords(0));
-    let uvs = uvs.map(|a| vectors::<2>(&a, buffers)).transpose().map_err(named("UVs"))?;
-    if normals.as_ref().is_some_and(|n| n.len() != count)
-        || uvs.as_ref().is_some_and(|uvs| uvs.len() != count)
-    {
+    if let Some(accessor) = &uvs {
+        vectors::<2, Vec2>(accessor, buffers, &mut draft.uvs).map_err(named("UVs"))?;
+    }
+    let fits = |given: bool, length: usize| !given || length == vertices + count;
+    if !fits(normals.is_some(), draft.normals.len()) || !fits(uvs.is_some(), draft.uvs.len()) {
         return Err(Error::malformed("normals or UVs in another number than positions"));
     }
-    let corners = primitive.indices().map(|a| indices(&a, buffers)).transpose().map_err(named("indices"))?;
-    if let Some(bad) = corners.iter().flatten().find(|&&corner| corner as usize >= count) {
-        return Err(Error::malformed(format!("index {bad}, of {count} vertices")));
-    }
-    if let Some(at) = uvs.iter().flatten().position(|uv| !(uv[0].is_finite() && uv[1].is_finite())) {
-        return Err(Error::invalid(format!("UV {at} is not a finite number")));
-    }
-
-    let (vertices, triangles) = (draft.positions.len(), draft.triangles.len());
-    if vertices + count > u32::MAX as usize {
+    if draft.positions.len() > u32::MAX as usize {
         return Err(Error::too_large("more vertices than 32 bits can number"));
     }
-    append_positions(draft, positions, instance.to_world)?;
+    draft.normals.resize(draft.positions.len(), Vec3::ZERO);
+    draft.uvs.resize(draft.positions.len(), Vec2::ZERO);
+    let corners = primitive.indices().map(|a| indices(&a, buffers)).transpose().map_err(named("indices"))?;
+    let largest = corners.iter().flatten().copied().max();
+    if let Some(largest) = largest.filter(|&largest| largest as usize >= count) {
+        return Err(Error::malformed(format!("index {largest}, of {count} vertices")));
+    }
+    place(&mut draft.positions[vertices..], &mut draft.normals[vertices..], instance.to_world);
+    check_positions(&draft.positions[vertices..])?;
+    if uvs.is_some() {
+        turn_up(&mut draft.uvs[vertices..])?;
+    }
     let part = DraftPart {
         part: describe(primitive, instance),
         has_normals: normals.is_some(),
         has_uvs: uvs.is_some(),
         ..DraftPart::default()
     };
-    append_normals(draft, normals, instance.to_world);
-    // glTF's v runs down.
-    draft.uvs.extend(uvs.into_iter().flatten().map(|[u, v]| Vec2::new(u, 1.0 - v)));
-    draft.uvs.resize(draft.positions.len(), Vec2::ZERO);
     append_triangles(draft, primitive.mode(), corners, vertices as u32, count as u32);
     if instance.to_world.determinant() < 0.0 {
         draft.triangles[triangles..].iter_mut().for_each(|triangle| triangle.swap(1, 2));
@@ -93,36 +112,46 @@ pub(super) fn append(
     Ok(true)
 }
 
-fn append_positions(draft: &mut Draft, positions: Vec<[f32; 3]>, to_world: Mat4) -> Result<()> {
-    let first = draft.positions.len();
+/// Takes positions and normals from the mesh's space to the world's.
+fn place(positions: &mut [Vec3], normals: &mut [Vec3], to_world: Mat4) {
     if to_world == Mat4::IDENTITY {
-        draft.positions.extend(positions.into_iter().map(Vec3::from));
-    } else {
-        draft.positions.extend(positions.into_iter().map(|p| to_world.transform_point3(Vec3::from(p))));
+        return;
     }
-    for (at, &position) in draft.positions[first..].iter().enumerate() {
+    for position in positions {
+        *position = to_world.transform_point3(*position);
+    }
+    // The cofactors: the inverse transpose up to a factor, and defined for a flattening transform too.
+    let linear = Mat3::from_mat4(to_world);
+    let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];
+    let sign = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };
+    let turn = Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign;
+    for normal in normals {
+        let turned = turn * *normal;
+        *normal = turned.try_normalize().unwrap_or(turned);
+    }
+}
+
+fn check_positions(positions: &[Vec3]) -> Result<()> {
+    // One branch for all; a number that is none fails the comparison too.
+    let fine =
+        positions.iter().fold(true, |fine, p| fine & p.abs().cmple(Vec3::splat(COORDINATE_LIMIT)).all());
+    let faults = positions.iter().enumerate().filter(|_| !fine);
+    for (at, &position) in faults {
         check_position(position)
             .map_err(|error| Error::new(error.kind(), format!("vertex {at}: {error}")))?;
     }
     Ok(())
 }
 
-fn append_normals(draft: &mut Draft, normals: Option<Vec<[f32; 3]>>, to_world: Mat4) {
-    let linear = Mat3::from_mat4(to_world);
-    let normals = normals.into_iter().flatten().map(Vec3::from);
-    if linear == Mat3::IDENTITY {
-        draft.normals.extend(normals);
-    } else {
-        // The cofactors: the inverse transpose up to a factor, and defined for a flattening transform too.
-        let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];
-        let sign = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };
-        let turn = Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign;
-        draft.normals.extend(normals.map(|normal| {
-            let turned = turn * normal;
-            turned.try_normalize().unwrap_or(turned)
-        }));
+/// Turns v up: in glTF it runs down.
+fn turn_up(uvs: &mut [Vec2]) -> Result<()> {
+    let mut finite = true;
+    for uv in &mut *uvs {
+        finite &= uv.is_finite();
+        uv.y = 1.0 - uv.y;
     }
-    draft.normals.resize(draft.positions.len(), Vec3::ZERO);
+    let fault = uvs.iter().position(|uv| !uv.is_finite()).filter(|_| !finite);
+    fault.map_or(Ok(()), |at| Err(Error::invalid(format!("UV {at} is not a finite number"))))
 }
 
 fn append_triangles(draft: &mut Draft, mode: Mode, corners: Option<Vec<u32>>, base: u32, count: u32) {

@@ -82,9 +82,10 @@ fn a_square_is_read_with_v_up() {
 #[test]
 fn nodes_place_turn_and_mirror() {
     let (mut json, bin) = square();
+    let quarter = std::f32::consts::FRAC_1_SQRT_2;
     json["nodes"] = json!([
         {"children": [1, 2], "translation": [10, 0, 0]},
-        {"mesh": 0, "rotation": [0, 0.70710678, 0, 0.70710678], "name": "turned"},
+        {"mesh": 0, "rotation": [0, quarter, 0, quarter], "name": "turned"},
         {"mesh": 0, "scale": [-1, 3, 1], "name": "mirrored"}
     ]);
     let mesh = read(&json, &bin).unwrap();
