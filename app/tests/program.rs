@@ -1,5 +1,7 @@
 //! The program as its user runs it: every command once, and every refusal with its exit status and its one line.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use std::path::Path;
 use std::process::{Command, Output};
 

@@ -2,6 +2,8 @@
 //!
 //! Prints both medians and the ratio; exits 1 when the ratio is over the bar.
 
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "its result is what it prints")]
+
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};

@@ -1,5 +1,7 @@
 //! The symmetry of a cloth is found from its pictures: right every time.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use amc_core::Progress;
 use amc_core::capture::{self, BuildOptions};
 use studio_tests::materials::{Facets, three_lights};

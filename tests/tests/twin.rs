@@ -1,6 +1,8 @@
 //! The same pictures from both renderers: at least 99.9 % of the pixels within 3 steps of 1/255 (sRGB, alpha
 //! included), and 0.5 steps in the mean. On OpenGL in the ordinary run, on Vulkan too with the feature `full`.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use std::sync::Arc;
 
 use amc_core::Progress;

@@ -19,7 +19,7 @@ pub(crate) struct Fabrics {
 
 impl Fabrics {
     /// The number of the fabric in `file`, which is read the first time it is asked for.
-    pub(crate) fn from_file(&mut self, file: &Path) -> Result<usize> {
+    pub(crate) fn read(&mut self, file: &Path) -> Result<usize> {
         let known = self.files.iter().position(|known| known.as_deref() == Some(file));
         match known {
             Some(number) => Ok(number),

@@ -40,7 +40,7 @@ pub(crate) fn panel_looks(
         let needs_default = (0..looks.len()).any(|panel| whole[panel] && !every_panel_has_its_own(panel));
         if needs_default {
             let number = match amc {
-                Some(file) => fabrics.from_file(file)?,
+                Some(file) => fabrics.read(file)?,
                 None => fabrics.bundled(progress)?,
             };
             for (look, takes_fabric) in looks.iter_mut().zip(&whole) {
@@ -60,7 +60,7 @@ pub(crate) fn panel_looks(
             )));
         }
         let fabric = match (&option.amc, fabrics.as_deref_mut()) {
-            (Some(file), Some(fabrics)) => Some(fabrics.from_file(file)?),
+            (Some(file), Some(fabrics)) => Some(fabrics.read(file)?),
             _ => None,
         };
         for (look, panel) in looks.iter_mut().zip(&garment.panels) {

@@ -1,5 +1,7 @@
 //! Tells whether a graphics backend is there: `adapter vulkan` or `adapter gl`; exit 1 where it is not.
 
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "its result is what it prints")]
+
 use std::process::ExitCode;
 
 use amc_core::render::gpu::{Backend, Gpu};

@@ -3,6 +3,8 @@
 //! The folder holds `ball-ideal/frames`, `ball-camera/frames` and `scenes/` (meshes, cameras and an independent path
 //! tracer's pictures). Nothing is tuned: every table is what `build` makes of the pictures with its defaults.
 
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "its result is what it prints")]
+
 use std::path::Path;
 use std::sync::Arc;
 
