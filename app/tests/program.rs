@@ -122,6 +122,21 @@ fn tables_are_baked_converted_and_come_back() {
 }
 
 #[test]
+fn a_damaged_cache_is_said_and_made_anew() {
+    let folder = scratch();
+    let here = folder.path();
+    let render = ["render", "shape:disc-radial", "-o", "a.png", "--size", "32x32", "--renderer", "cpu"];
+    done(here, &render);
+    let fabrics = here.join("cache/amc-studio/fabrics");
+    let cached = std::fs::read_dir(&fabrics).unwrap().next().unwrap().unwrap().path();
+    amc_core::file::save_bytes(&cached, b"half a file").unwrap();
+    let output = run(here, &render);
+    assert!(output.status.success());
+    assert!(String::from_utf8(output.stderr).unwrap().contains("warning: the cached fabric is baked anew"));
+    assert!(amc_core::amc::Amc::read(&cached).is_ok());
+}
+
+#[test]
 fn directions_are_exported_and_panels_listed() {
     let folder = scratch();
     let here = folder.path();

@@ -7,6 +7,7 @@ mod build;
 mod convert;
 mod demo;
 mod inspect;
+mod log_output;
 mod output;
 mod progress;
 mod render;
@@ -97,6 +98,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             return if usage { ExitCode::from(2) } else { ExitCode::SUCCESS };
         }
     };
+    log_output::show_warnings();
     let output = Output::new(arguments.json);
     let outcome = dispatch(arguments, &output);
     let (status, message) = match outcome {
