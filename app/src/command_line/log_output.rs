@@ -8,9 +8,8 @@ struct Warnings;
 
 impl Log for Warnings {
     fn enabled(&self, metadata: &Metadata<'_>) -> bool {
-        // Libraries warn of much that a person can do nothing about; their errors matter.
-        let ours = metadata.target().starts_with("amc_");
-        metadata.level() <= if ours { Level::Warn } else { Level::Error }
+        // What libraries log a person can do nothing about; what comes of it is in our own errors.
+        metadata.target().starts_with("amc_") && metadata.level() <= Level::Warn
     }
 
     fn log(&self, record: &Record<'_>) {

@@ -162,7 +162,9 @@ fn draw(
     match choice {
         RendererChoice::Cpu => Ok((cpu::render(drawing, view, shading, progress)?, "cpu".to_owned())),
         RendererChoice::Gpu => {
-            let gpu = gpu::Gpu::headless(gpu::Backend::Auto)?;
+            let gpu = gpu::Gpu::headless(gpu::Backend::Auto).map_err(|error| {
+                Error::device(format!("{error}; or render with --renderer cpu")).because(error)
+            })?;
             Ok((gpu::render_picture(&gpu, drawing, view, shading)?, gpu.name()))
         }
     }
