@@ -157,7 +157,7 @@ impl RimSource {
 /// it, or of the rim point on its radius where it lies off the disc.
 pub(crate) fn rim_sources(size: TableSize, known: &[bool]) -> Vec<RimSource> {
     let side = size.side() as usize;
-    let unknown = (0..known.len()).filter(|&k| !known[k]);
+    let unknown = (0..known.len()).into_par_iter().filter(|&k| !known[k]);
     unknown
         .map(|k| {
             let xy = size.normal_xy((k % side) as u32, (k / side) as u32).as_dvec2();
