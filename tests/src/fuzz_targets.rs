@@ -34,7 +34,8 @@ pub fn ktx2(bytes: &[u8]) {
 fn write_and_read(amc: &Amc) {
     let written = amc.to_ktx2().expect("a table that was read can be written");
     let again = Amc::from_ktx2(&written).expect("a table that was written can be read");
-    let looked_up_alike = (again.symmetry, again.azimuth, again.frame) == (amc.symmetry, amc.azimuth, amc.frame);
+    let looked_up_alike =
+        (again.symmetry, again.azimuth, again.frame) == (amc.symmetry, amc.azimuth, amc.frame);
     assert!(looked_up_alike && again.size() == amc.size() && again.metadata.name == amc.metadata.name);
     assert!(again.texels() == amc.texels(), "texels changed on the way through a file");
 }

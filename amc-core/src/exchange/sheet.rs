@@ -68,8 +68,11 @@ impl Sheet {
 /// 32-bit light can be more than 16 bits hold.
 fn check_finite(texels: &[[f16; 4]], width: u32) -> Result<()> {
     match texels.iter().position(|texel| !texel.iter().copied().all(f16::is_finite)) {
-        Some(k) => Err(Error::invalid("a colour is larger than half floats hold")
-            .at_element(format!("pixel {}, {}", k % width as usize, k / width as usize))),
+        Some(k) => Err(Error::invalid("a colour is larger than half floats hold").at_element(format!(
+            "pixel {}, {}",
+            k % width as usize,
+            k / width as usize
+        ))),
         None => Ok(()),
     }
 }

@@ -139,11 +139,7 @@ impl Ring {
             let p = self.points[j];
             j != before && j != after && p != a && p != b && p != c && inside(p)
         };
-        if self.reflex[i] || reflex.any(blocked) {
-            f32::INFINITY
-        } else {
-            a.distance_squared(c)
-        }
+        if self.reflex[i] || reflex.any(blocked) { f32::INFINITY } else { a.distance_squared(c) }
     }
 
     fn cheapest(&self, from: usize) -> usize {

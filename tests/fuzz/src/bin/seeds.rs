@@ -31,8 +31,7 @@ const CAMERAS: [&str; 2] = [
     r#"{"world_to_view": [0,1,0,0, -1,0,0,0, 0,0,1,0, 0,0,0,1], "projection": {"orthographic": {"half_height": 1.5}}}"#,
 ];
 
-const LIGHTS: &str =
-    r#"{"version": 1, "ambient": [0.1, 0.1, 0.1], "lights": [{"towards": [0, 1, 2], "irradiance": [1, 2.5, 3]}]}"#;
+const LIGHTS: &str = r#"{"version": 1, "ambient": [0.1, 0.1, 0.1], "lights": [{"towards": [0, 1, 2], "irradiance": [1, 2.5, 3]}]}"#;
 
 /// A node with a turned child; quantised positions of one triangle, as a strip with a sparse accessor.
 const GLTF: &str = r#"{"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_mesh_quantization"], "scene": 0,
@@ -71,7 +70,10 @@ fn texts(satin: &str) -> Outcome {
     put("session", "session.json", SESSION.as_bytes())?;
     put("reflectance", "satin.json", satin.as_bytes())?;
     put("reflectance", "lights.json", LIGHTS.as_bytes())?;
-    CAMERAS.iter().enumerate().try_for_each(|(k, camera)| put("camera", &format!("{k}.json"), camera.as_bytes()))
+    CAMERAS
+        .iter()
+        .enumerate()
+        .try_for_each(|(k, camera)| put("camera", &format!("{k}.json"), camera.as_bytes()))
 }
 
 fn meshes() -> Outcome {
@@ -86,7 +88,8 @@ fn meshes() -> Outcome {
 
 fn gradient() -> amc_core::Result<Picture> {
     let value = |k: u32| k as f32 / (SIDE * SIDE) as f32;
-    let pixels = (0..SIDE * SIDE).map(|k| [value(k), 0.5, 1.0 - value(k), if k % 3 == 0 { 0.5 } else { 1.0 }]);
+    let pixels =
+        (0..SIDE * SIDE).map(|k| [value(k), 0.5, 1.0 - value(k), if k % 3 == 0 { 0.5 } else { 1.0 }]);
     Picture::new(SIDE, SIDE, pixels.collect())
 }
 
@@ -134,7 +137,8 @@ fn tables(amc: &Amc) -> Outcome {
     };
     let name = format!("{kind}.amc.ktx2");
     put("ktx2", &name, &amc.to_ktx2()?)?;
-    let (from, to) = (std::env::temp_dir().join(&name), std::env::temp_dir().join(format!("{kind}.atlas.{suffix}")));
+    let (from, to) =
+        (std::env::temp_dir().join(&name), std::env::temp_dir().join(format!("{kind}.atlas.{suffix}")));
     amc.save(&from)?;
     exchange::convert(&from, &to, exchange::Hints::default())?;
     let atlas = std::fs::read(&to)?;
