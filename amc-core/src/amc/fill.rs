@@ -315,6 +315,20 @@ mod tests {
     }
 
     #[test]
+    fn one_texel_fills_a_whole_disc_ring_by_ring() {
+        let mut filled =
+            table(
+                33,
+                1,
+                |i, j, _| if (i, j) == (16, 16) { [0.5, 0.25, 2.0, 1.0] } else { [9.0, 9.0, 9.0, 0.0] },
+            );
+        filled.fill().unwrap();
+        for (k, texel) in filled.texels.iter().enumerate() {
+            assert!((texel[0] - 0.5).abs() < 1e-4 && (texel[2] - 2.0).abs() < 1e-3, "{k}: {texel:?}");
+        }
+    }
+
+    #[test]
     fn a_table_that_holds_nothing_is_refused() {
         assert!(table(4, 2, |_, _, _| [0.0; 4]).fill().is_err());
     }
