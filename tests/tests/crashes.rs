@@ -1,23 +1,29 @@
 //! Every input that a fuzzer once broke a reader with, again.
 
+use std::path::Path;
+
 use studio_tests::fuzz_targets::TARGETS;
 
-/// One folder per target.
+/// One folder per target that has ever failed.
 const CRASHES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/crashes");
 
 #[test]
 fn inputs_that_once_failed_are_refused_or_read() {
     let mut fed = 0;
-    for folder in std::fs::read_dir(CRASHES).unwrap() {
-        let folder = folder.unwrap().path();
+    for folder in entries(Path::new(CRASHES)) {
         let name = folder.file_name().unwrap().to_str().unwrap();
         let (_, target) = TARGETS.iter().find(|(known, _)| *known == name).expect("a folder per target");
-        for input in std::fs::read_dir(&folder).unwrap() {
-            target(&std::fs::read(input.unwrap().path()).unwrap());
+        for input in entries(&folder) {
+            target(&std::fs::read(input).unwrap());
             fed += 1;
         }
     }
     assert!(fed > 0, "the folder of crashes is empty");
+}
+
+fn entries(folder: &Path) -> impl Iterator<Item = std::path::PathBuf> {
+    let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    entries.map(|entry| entry.unwrap().path())
 }
 
 #[test]

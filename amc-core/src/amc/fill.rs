@@ -83,42 +83,43 @@ impl LinearTable {
 fn grow(slice: &mut [[f32; 4]], disc: &[bool], side: usize) -> bool {
     // Off the disc nothing counts as known: what stands there is background.
     let mut known: Vec<bool> = slice.iter().zip(disc).map(|(texel, &on)| on && texel[3] > 0.0).collect();
-    let mut unknown: Vec<usize> = (0..slice.len()).filter(|&k| disc[k] && !known[k]).collect();
     if !known.contains(&true) {
         return false;
     }
-    while !unknown.is_empty() {
-        let ring: Vec<(usize, [f32; 4])> = unknown
-            .iter()
-            .filter_map(|&k| neighbour_mean(slice, &known, side, k).map(|mean| (k, mean)))
-            .collect();
-        // The disc is connected, so a ring is empty only when all is known.
-        if ring.is_empty() {
-            break;
-        }
-        for (k, mean) in ring {
-            slice[k] = mean;
+    let mut waiting: Vec<bool> = disc.iter().zip(&known).map(|(&on, &known)| on && !known).collect();
+    let mut ring: Vec<usize> =
+        (0..slice.len()).filter(|&k| waiting[k] && around(side, k).any(|near| known[near])).collect();
+    ring.iter().for_each(|&k| waiting[k] = false);
+    while !ring.is_empty() {
+        let means: Vec<_> = ring.iter().map(|&k| neighbour_mean(slice, &known, side, k)).collect();
+        for (&k, mean) in ring.iter().zip(means) {
+            slice[k] = mean.unwrap_or(slice[k]);
             known[k] = true;
         }
-        unknown.retain(|&k| !known[k]);
+        // Only beside what has just become known can the next ring be: every texel is looked at once, however large
+        // the hole.
+        let beside = ring.iter().flat_map(|&k| around(side, k));
+        ring = beside.filter(|&near| std::mem::take(&mut waiting[near])).collect();
     }
     true
 }
 
+/// A texel and its up to eight neighbours.
+fn around(side: usize, k: usize) -> impl Iterator<Item = usize> {
+    let (x, y) = (k % side, k / side);
+    let near = move |at: usize| at.saturating_sub(1)..(at + 2).min(side);
+    near(y).flat_map(move |y| near(x).map(move |x| y * side + x))
+}
+
 /// The mean of the known ones among the eight neighbours, the diagonal ones at 1/sqrt 2.
 fn neighbour_mean(slice: &[[f32; 4]], known: &[bool], side: usize, k: usize) -> Option<[f32; 4]> {
-    let (x, y) = (k % side, k / side);
     let (mut sum, mut weights) = ([0.0f32; 3], 0.0f32);
-    for ny in y.saturating_sub(1)..(y + 2).min(side) {
-        for nx in x.saturating_sub(1)..(x + 2).min(side) {
-            let neighbour = ny * side + nx;
-            if known[neighbour] {
-                let weight = if nx == x || ny == y { 1.0 } else { std::f32::consts::FRAC_1_SQRT_2 };
-                weights += weight;
-                for (sum, value) in sum.iter_mut().zip(slice[neighbour]) {
-                    *sum += weight * value;
-                }
-            }
+    for near in around(side, k).filter(|&near| known[near]) {
+        let straight = near % side == k % side || near / side == k / side;
+        let weight = if straight { 1.0 } else { std::f32::consts::FRAC_1_SQRT_2 };
+        weights += weight;
+        for (sum, value) in sum.iter_mut().zip(slice[near]) {
+            *sum += weight * value;
         }
     }
     (weights > 0.0).then(|| [sum[0] / weights, sum[1] / weights, sum[2] / weights, FILLED])
@@ -156,7 +157,7 @@ impl RimSource {
 /// it, or of the rim point on its radius where it lies off the disc.
 pub(crate) fn rim_sources(size: TableSize, known: &[bool]) -> Vec<RimSource> {
     let side = size.side() as usize;
-    let unknown = (0..known.len()).filter(|&k| !known[k]);
+    let unknown = (0..known.len()).into_par_iter().filter(|&k| !known[k]);
     unknown
         .map(|k| {
             let xy = size.normal_xy((k % side) as u32, (k / side) as u32).as_dvec2();
@@ -311,6 +312,20 @@ mod tests {
         assert!((filled.texel(3, 8, 1)[0] - 1.0).abs() < 1e-5);
         assert!((filled.texel(3, 8, 2)[0] - 2.0).abs() < 1e-5);
         assert_eq!(filled.texel(3, 8, 3), [3.0, 3.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn one_texel_fills_a_whole_disc_ring_by_ring() {
+        let mut filled =
+            table(
+                33,
+                1,
+                |i, j, _| if (i, j) == (16, 16) { [0.5, 0.25, 2.0, 1.0] } else { [9.0, 9.0, 9.0, 0.0] },
+            );
+        filled.fill().unwrap();
+        for (k, texel) in filled.texels.iter().enumerate() {
+            assert!((texel[0] - 0.5).abs() < 1e-4 && (texel[2] - 2.0).abs() < 1e-3, "{k}: {texel:?}");
+        }
     }
 
     #[test]

@@ -24,20 +24,24 @@ pub(super) const FORM: Form = Form {
             Samples::U8(_) => TexelFormat::Srgb8,
             _ => TexelFormat::Half,
         };
-        amc_of(&raster.to_picture(), format)
+        // Before the pixels take four times their room in the file.
+        let size = size_of(raster.width(), raster.height())?;
+        amc_of(size, &raster.to_picture(), format)
     },
     write,
 };
 
-/// A MatCap as an AMC of one slice. Pixels that are not wholly covered (alpha below 1) are filled from their neighbours.
-fn amc_of(picture: &Picture, format: TexelFormat) -> Result<Amc> {
-    let (width, height) = (picture.width(), picture.height());
+fn size_of(width: u32, height: u32) -> Result<TableSize> {
     if width != height {
         let message = format!("{width} x {height} pixels; a MatCap is a square that the ball fills");
         return Err(Error::unsupported(message));
     }
-    let size = TableSize::new(width, 1)?;
-    let rows = picture.pixels().chunks_exact(width as usize).rev();
+    TableSize::new(width, 1)
+}
+
+/// A MatCap as an AMC of one slice. Pixels that are not wholly covered (alpha below 1) are filled from their neighbours.
+fn amc_of(size: TableSize, picture: &Picture, format: TexelFormat) -> Result<Amc> {
+    let rows = picture.pixels().chunks_exact(size.side() as usize).rev();
     let measured = |&[r, g, b, a]: &[f32; 4]| if a >= 1.0 { [r, g, b, 1.0] } else { [0.0; 4] };
     let texels = rows.flatten().map(measured).collect();
     let mut table = LinearTable { size, texels, symmetry: Symmetry::One, azimuth: Azimuth::Transported };

@@ -19,6 +19,9 @@ use crate::{Error, Result};
 /// channel of its own there.
 const MEASURED: &str = "measured";
 
+/// What a PNG's texts may take, bytes: altogether as they are packed, and the one that is wanted unpacked.
+const MOST_TEXT: usize = 16 << 20;
+
 /// A grid of texels, rows from the top.
 #[derive(Debug)]
 pub(super) struct Sheet {
@@ -45,14 +48,13 @@ impl Sheet {
     /// Reads a picture of any sort: 8-bit pictures give 8-bit texels, all others half floats.
     pub(super) fn decode(bytes: &[u8]) -> Result<Self> {
         let raster = decode(bytes)?;
-        let picture = raster.to_picture();
-        let (width, height) = (picture.width(), picture.height());
-        let half = |texel: &[f32; 4]| texel.map(f16::from_f32);
+        let (width, height) = (raster.width(), raster.height());
         let texels = match raster.samples() {
-            Samples::U8(samples) => Texels::Srgb8(rgba8(samples, raster.channels())),
-            Samples::U16(_) => Texels::Half(picture.pixels().iter().map(half).collect()),
+            Samples::U8(samples) => Texels::Srgb8(raster.spread(samples, |value| value, |alpha| alpha, 255)),
+            Samples::U16(_) => Texels::Half(raster.linear(f16::from_f32)),
             Samples::F32(_) => {
-                let mut texels: Vec<[f16; 4]> = picture.pixels().iter().map(half).collect();
+                let mut texels = raster.linear(f16::from_f32);
+                check_finite(&texels, width)?;
                 if Format::of(bytes) == Some(Format::Exr) {
                     read_measured(bytes, width, height, &mut texels)?;
                 }
@@ -63,15 +65,16 @@ impl Sheet {
     }
 }
 
-fn rgba8(samples: &[u8], channels: u32) -> Vec<[u8; 4]> {
-    let pixel = |pixel: &[u8]| match *pixel {
-        [y] => [y, y, y, 255],
-        [y, a] => [y, y, y, a],
-        [r, g, b] => [r, g, b, 255],
-        [r, g, b, a, ..] => [r, g, b, a],
-        [] => [0; 4],
-    };
-    samples.chunks_exact(channels as usize).map(pixel).collect()
+/// 32-bit light can be more than 16 bits hold.
+fn check_finite(texels: &[[f16; 4]], width: u32) -> Result<()> {
+    match texels.iter().position(|texel| !texel.iter().copied().all(f16::is_finite)) {
+        Some(k) => Err(Error::invalid("a colour is larger than half floats hold").at_element(format!(
+            "pixel {}, {}",
+            k % width as usize,
+            k / width as usize
+        ))),
+        None => Ok(()),
+    }
 }
 
 /// Puts the channel `measured` into the texels' fourth channel, where the file has it. Its size has been checked when
@@ -127,13 +130,20 @@ fn guarded<T>(decoder: impl FnOnce() -> T) -> Option<T> {
 }
 
 fn png_text(bytes: &[u8], name: &str) -> Option<String> {
-    // What texts may take altogether: the decoder counts them against this.
-    let limits = png::Limits { bytes: 16 << 20 };
+    let limits = png::Limits { bytes: MOST_TEXT };
     let reader = png::Decoder::new_with_limits(Cursor::new(bytes), limits).read_info().ok()?;
     let info = reader.info();
     let plain = info.uncompressed_latin1_text.iter().find(|chunk| chunk.keyword == name);
-    let packed = || info.compressed_latin1_text.iter().find(|chunk| chunk.keyword == name)?.get_text().ok();
-    let wide = || info.utf8_text.iter().find(|chunk| chunk.keyword == name)?.get_text().ok();
+    let packed = || {
+        let mut chunk = info.compressed_latin1_text.iter().find(|chunk| chunk.keyword == name)?.clone();
+        chunk.decompress_text_with_limit(MOST_TEXT).ok()?;
+        chunk.get_text().ok()
+    };
+    let wide = || {
+        let mut chunk = info.utf8_text.iter().find(|chunk| chunk.keyword == name)?.clone();
+        chunk.decompress_text_with_limit(MOST_TEXT).ok()?;
+        chunk.get_text().ok()
+    };
     plain.map(|chunk| chunk.text.clone()).or_else(packed).or_else(wide)
 }
 

@@ -198,3 +198,22 @@ fn mutated_atlases_and_lists_never_panic() {
         }
     }
 }
+
+#[test]
+fn light_that_half_floats_cannot_hold_is_refused() {
+    let picture = Picture::new(2, 1, vec![[1.0; 4], [1.0, 70_000.0, 1.0, 1.0]]).unwrap();
+    let error = sheet::Sheet::decode(&encode::exr(&picture).unwrap()).unwrap_err();
+    assert!(error.to_string().starts_with("pixel 1, 0: "), "{error}");
+}
+
+#[test]
+fn a_text_that_unpacks_to_too_much_is_none() {
+    for (length, read) in [(1 << 20, true), (17 << 20, false)] {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, 1, 1);
+        encoder.set_color(png::ColorType::Grayscale);
+        encoder.add_ztxt_chunk("amc".into(), " ".repeat(length)).unwrap();
+        encoder.write_header().unwrap().write_image_data(&[0]).unwrap();
+        assert_eq!(sheet::text(&bytes, "amc").is_some(), read, "{length}");
+    }
+}

@@ -106,32 +106,40 @@ impl Raster {
 
     /// The picture in linear light; grey is spread over the three colours, a missing alpha is 1.
     pub fn to_picture(&self) -> Picture {
-        let pixels = match &self.samples {
+        Picture { width: self.width, height: self.height, pixels: self.linear(|value| value) }
+    }
+
+    /// The pixels of [`Raster::to_picture`], each number as `store` makes it.
+    pub(crate) fn linear<P: Copy>(&self, store: impl Fn(f32) -> P) -> Vec<[P; 4]> {
+        let one = store(1.0);
+        match &self.samples {
             Samples::U8(samples) => {
-                let table = &*LINEAR_FROM_SRGB8;
-                self.pixels(samples, |value| table[usize::from(value)], |alpha| f32::from(alpha) / 255.0)
+                let colour = |value| store(LINEAR_FROM_SRGB8[usize::from(value)]);
+                self.spread(samples, colour, |alpha| store(f32::from(alpha) / 255.0), one)
             }
             Samples::U16(samples) => {
                 let table = &*LINEAR_FROM_SRGB16;
-                self.pixels(samples, |value| table[usize::from(value)], |alpha| f32::from(alpha) / 65535.0)
+                let colour = |value| store(table[usize::from(value)]);
+                self.spread(samples, colour, |alpha| store(f32::from(alpha) / 65535.0), one)
             }
-            Samples::F32(samples) => self.pixels(samples, |value| value, |alpha| alpha),
-        };
-        Picture { width: self.width, height: self.height, pixels }
+            Samples::F32(samples) => self.spread(samples, &store, &store, one),
+        }
     }
 
-    fn pixels<T: Copy>(
+    /// Four numbers a pixel: grey is spread over the three colours, a missing alpha is `one`.
+    pub(crate) fn spread<T: Copy, P: Copy>(
         &self,
         samples: &[T],
-        colour: impl Fn(T) -> f32,
-        alpha: impl Fn(T) -> f32,
-    ) -> Vec<[f32; 4]> {
+        colour: impl Fn(T) -> P,
+        alpha: impl Fn(T) -> P,
+        one: P,
+    ) -> Vec<[P; 4]> {
         let pixel = |pixel: &[T]| match *pixel {
-            [y] => [colour(y), colour(y), colour(y), 1.0],
+            [y] => [colour(y), colour(y), colour(y), one],
             [y, a] => [colour(y), colour(y), colour(y), alpha(a)],
-            [r, g, b] => [colour(r), colour(g), colour(b), 1.0],
+            [r, g, b] => [colour(r), colour(g), colour(b), one],
             [r, g, b, a, ..] => [colour(r), colour(g), colour(b), alpha(a)],
-            [] => [0.0; 4],
+            [] => [one; 4],
         };
         samples.chunks_exact(self.channels as usize).map(pixel).collect()
     }

@@ -5,6 +5,10 @@ use glam::{Vec2, Vec3};
 /// Most corners a polygon may have: the work grows with their square.
 pub(super) const CORNER_LIMIT: usize = 4096;
 
+/// How much work a polygon may cost when its ears run out, in looks at all of its corners. A whole polygon without
+/// spikes and crossings needs none; what is left of a hostile one is cut anyhow.
+const REFRESH_LIMIT: usize = 16;
+
 /// Triangulates a polygon; hands out triples of indices into `points`, wound as the polygon is.
 ///
 /// A quadrilateral is cut along the shorter of its diagonals that lie inside; a larger polygon has its ear with the
@@ -52,10 +56,12 @@ fn clip_ears(points: &[Vec3], mut emit: impl FnMut([usize; 3])) {
     let count = points.len();
     let mut ring = Ring::new(points);
     let mut corner = 0;
-    for _ in 3..count {
+    let mut budget = REFRESH_LIMIT * count * count;
+    for left in (4..=count).rev() {
         let mut ear = ring.cheapest(corner);
-        if ring.cost[ear].is_infinite() {
+        if ring.cost[ear].is_infinite() && budget >= left * left {
             // An ear can be opened far from the last cut.
+            budget -= left * left;
             ring.refresh(corner);
             ear = ring.cheapest(corner);
         }
@@ -105,7 +111,7 @@ impl Ring {
 
     fn update(&mut self, i: usize) {
         self.reflex[i] = self.is_reflex(i);
-        self.cost[i] = self.cost_of(i);
+        self.cost[i] = self.cost_of(i, self.corners(i).filter(|&j| self.reflex[j]));
     }
 
     /// All corners of the ring that runs through `from`.
@@ -115,27 +121,25 @@ impl Ring {
 
     fn refresh(&mut self, from: usize) {
         let corners: Vec<usize> = self.corners(from).collect();
+        let reflex: Vec<usize> = corners.iter().copied().filter(|&i| self.reflex[i]).collect();
         for i in corners {
-            self.cost[i] = self.cost_of(i);
+            self.cost[i] = self.cost_of(i, reflex.iter().copied());
         }
     }
 
-    fn cost_of(&self, i: usize) -> f32 {
+    /// `reflex`: the ring's reflex corners; only one of them can stand in the way.
+    fn cost_of(&self, i: usize, mut reflex: impl Iterator<Item = usize>) -> f32 {
         let [a, b, c] = self.triangle(i);
         let (before, after) = (self.previous[i], self.next[i]);
         let inside = |p: Vec2| {
             (b - a).perp_dot(p - a) >= 0.0 && (c - b).perp_dot(p - b) >= 0.0 && (a - c).perp_dot(p - c) >= 0.0
         };
-        // Only a reflex corner can stand in the way; one that stands on the cut's own ends does not.
+        // One that stands on the cut's own ends does not.
         let blocked = |j: usize| {
             let p = self.points[j];
-            j != before && j != after && self.reflex[j] && p != a && p != b && p != c && inside(p)
+            j != before && j != after && p != a && p != b && p != c && inside(p)
         };
-        if self.reflex[i] || self.corners(i).skip(1).any(blocked) {
-            f32::INFINITY
-        } else {
-            a.distance_squared(c)
-        }
+        if self.reflex[i] || reflex.any(blocked) { f32::INFINITY } else { a.distance_squared(c) }
     }
 
     fn cheapest(&self, from: usize) -> usize {

@@ -4,6 +4,7 @@
 pub mod fuzz_targets;
 
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::Once;
 
 /// The largest single allocation that an input of 64 KiB may cause, bytes.
 const LIMIT: usize = 256 << 20;
@@ -49,5 +50,10 @@ static ALLOCATOR: Bounded = Bounded;
 
 /// Feeds `bytes` to `target`; naming this function is what links the allocator.
 pub fn feed(target: fn(&[u8]), bytes: &[u8]) {
-    target(bytes);
+    static HOOK: Once = Once::new();
+    // libFuzzer's hook ends the process at every panic, those of other people's decoders too, which the readers catch.
+    HOOK.call_once(|| drop(std::panic::take_hook()));
+    if std::panic::catch_unwind(|| target(bytes)).is_err() {
+        std::process::abort();
+    }
 }

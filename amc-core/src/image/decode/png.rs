@@ -7,8 +7,8 @@ use png::{BitDepth, ColorType, Decoder, DecodingError, Limits, Transformations};
 use super::{Raster, Samples, check_size};
 use crate::{Error, Result};
 
-/// Deflate reaches 1032 to 1, and a bit of grey becomes a byte.
-const MOST_RATIO: u64 = 8 * 1032;
+/// Deflate reaches 1032 to 1.
+const MOST_RATIO: u64 = 1032;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Raster> {
     let mut cursor = Cursor::new(bytes);
@@ -45,8 +45,9 @@ fn read(cursor: &mut Cursor<&[u8]>, length: usize) -> Result<Raster, Failure> {
     decoder.set_ignore_iccp_chunk(true);
     let header = decoder.read_header_info()?;
     let (width, height) = (header.width, header.height);
-    let bytes =
-        u64::from(width) * u64::from(height) * if header.bit_depth == BitDepth::Sixteen { 2 } else { 1 };
+    // Packed as in the file: the decoder makes a byte of a bit, but no more than that.
+    let row = (u64::from(width) * header.bits_per_pixel() as u64).div_ceil(8);
+    let bytes = row.saturating_mul(u64::from(height));
     check_size(u64::from(width), u64::from(height), bytes, length, MOST_RATIO)?;
     let mut reader = decoder.read_info()?;
     let (colour, depth) = reader.output_color_type();

@@ -88,20 +88,21 @@ impl<'a> Lines<'a> {
 
     /// The next line, with those that a backslash at the end appends to it; none at the end.
     fn next_line(&mut self) -> Option<Cow<'a, [u8]>> {
-        let mut line = self.next_physical_line()?;
-        while let [start @ .., b'\\'] = line.as_ref() {
-            let mut joined = start.to_vec();
-            let Some(next) = self.next_physical_line() else {
-                return Some(Cow::Owned(joined));
-            };
+        let first = self.next_physical_line()?;
+        let Some(start) = first.strip_suffix(b"\\") else { return Some(Cow::Borrowed(first)) };
+        let mut joined = start.to_vec();
+        while let Some(next) = self.next_physical_line() {
             joined.push(b' ');
-            joined.extend_from_slice(&next);
-            line = Cow::Owned(joined);
+            let start = next.strip_suffix(b"\\");
+            joined.extend_from_slice(start.unwrap_or(next));
+            if start.is_none() {
+                break;
+            }
         }
-        Some(line)
+        Some(Cow::Owned(joined))
     }
 
-    fn next_physical_line(&mut self) -> Option<Cow<'a, [u8]>> {
+    fn next_physical_line(&mut self) -> Option<&'a [u8]> {
         if self.rest.is_empty() {
             return None;
         }
@@ -112,7 +113,7 @@ impl<'a> Lines<'a> {
         };
         self.rest = rest;
         self.number += 1;
-        Some(Cow::Borrowed(line.strip_suffix(b"\r").unwrap_or(line)))
+        Some(line.strip_suffix(b"\r").unwrap_or(line))
     }
 }
 

@@ -1,0 +1,149 @@
+//! Writes valid little files of every format to `tests/fuzz/corpus/TARGET`, for the fuzzer to start from.
+
+use std::error::Error;
+use std::path::Path;
+
+use amc_core::amc::{Amc, TexelFormat};
+use amc_core::bake::{BakeOptions, bake};
+use amc_core::direction::{Direction, tangents};
+use amc_core::image::{Picture, encode};
+use amc_core::mesh::{Garment, gltf};
+use amc_core::{Progress, exchange, export, reflectance};
+// The coverage counters that all code here is built with live in libFuzzer.
+use libfuzzer_sys as _;
+use studio_fuzz as _;
+
+type Outcome = Result<(), Box<dyn Error>>;
+
+/// Side of the pictures, pixels.
+const SIDE: u32 = 8;
+
+const OBJ: &str = "# quads, a polygon, groups, all forms of corners\nmtllib none.mtl\no cloth\ng front\nusemtl red\n\
+    v 0 0 0\nv 1 0 0 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 1.5 1e-1\nvt 0 0\nvt 1 0 0\nvt 1 1\nvt 0 1\nvt .5\nvn 0 0 1\n\
+    f 1/1/1 2/2/1 3/3/1 4/4/1\ng back\ns 1\nf 4//1 3//1 5//1\nf -5/-5 -4/-4 -3/-3 \\\n -1/-1 -2/-2\n\
+    usemtl buttons\nf 1 2 3 # bare\nl 1 2\np 1\nfo 1 3 5\n";
+
+const SESSION: &str = r#"{"version": 1, "turn": "cw", "rig": {"camera": [1, null, true]}, "pictures": [
+    {"file": "frames/0000.jpg", "angle_deg": 0.0}, {"file": "frames/0001.png", "angle_deg": 1.2e1, "exposure": 4}]}"#;
+
+const CAMERAS: [&str; 2] = [
+    r#"{"world_to_view": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0.5,-1e-1,-3,1], "projection": {"perspective": {"fov_y_deg": 45}}}"#,
+    r#"{"world_to_view": [0,1,0,0, -1,0,0,0, 0,0,1,0, 0,0,0,1], "projection": {"orthographic": {"half_height": 1.5}}}"#,
+];
+
+const LIGHTS: &str = r#"{"version": 1, "ambient": [0.1, 0.1, 0.1], "lights": [{"towards": [0, 1, 2], "irradiance": [1, 2.5, 3]}]}"#;
+
+/// A node with a turned child; quantised positions of one triangle, as a strip with a sparse accessor.
+const GLTF: &str = r#"{"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_mesh_quantization"], "scene": 0,
+    "scenes": [{"nodes": [0]}], "nodes": [{"children": [1], "scale": [2, 2, -2]},
+    {"mesh": 0, "name": "Body", "rotation": [0, 0, 0.6, 0.8], "extras": {"amc": {"fabric": true}}}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 5, "indices": 1}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5122, "normalized": true, "count": 3, "type": "VEC3",
+    "max": [1, 1, 1], "min": [0, 0, 0], "sparse": {"count": 1, "indices": {"bufferView": 1, "componentType": 5121},
+    "values": {"bufferView": 0}}}, {"bufferView": 1, "componentType": 5121, "count": 4, "type": "SCALAR"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 24, "byteStride": 8}, {"buffer": 0, "byteOffset": 24, "byteLength": 4}],
+    "buffers": [{"byteLength": 28, "uri": "data:;base64,AAAAAAAAAAD/fwAAAAAAAAAA/38AAAAAAAECAQ=="}]}"#;
+
+fn main() -> Outcome {
+    let satin = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/fabrics/satin.json");
+    let satin = std::fs::read_to_string(satin)?;
+    texts(&satin)?;
+    meshes()?;
+    let picture = gradient()?;
+    pictures(&picture)?;
+    for format in [TexelFormat::Srgb8, TexelFormat::Half] {
+        let options = BakeOptions { side: SIDE, slices: Some(4), format, ..BakeOptions::default() };
+        tables(&bake(&reflectance::parse(&satin)?, &options, &Progress::none())?)?;
+    }
+    Ok(())
+}
+
+fn put(target: &str, name: &str, bytes: &[u8]) -> Outcome {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus").join(target);
+    std::fs::create_dir_all(&folder)?;
+    Ok(std::fs::write(folder.join(name), bytes)?)
+}
+
+fn texts(satin: &str) -> Outcome {
+    put("obj", "all.obj", OBJ.as_bytes())?;
+    put("gltf", "quantised.gltf", GLTF.as_bytes())?;
+    put("session", "session.json", SESSION.as_bytes())?;
+    put("reflectance", "satin.json", satin.as_bytes())?;
+    put("reflectance", "lights.json", LIGHTS.as_bytes())?;
+    CAMERAS
+        .iter()
+        .enumerate()
+        .try_for_each(|(k, camera)| put("camera", &format!("{k}.json"), camera.as_bytes()))
+}
+
+fn meshes() -> Outcome {
+    let no_files = |_: &str| Err(amc_core::Error::invalid("no files here"));
+    let garment = Garment::new(gltf::parse(GLTF.as_bytes(), &no_files)?)?;
+    let directions = vec![Direction::default(); garment.panels.len()];
+    let path = std::env::temp_dir().join("triangle.glb");
+    export::tangents(&garment, &tangents(&garment, &directions)?, &directions, &path)?;
+    put("gltf", "triangle.glb", &std::fs::read(&path)?)?;
+    Ok(std::fs::remove_file(&path)?)
+}
+
+fn gradient() -> amc_core::Result<Picture> {
+    let value = |k: u32| k as f32 / (SIDE * SIDE) as f32;
+    let pixels =
+        (0..SIDE * SIDE).map(|k| [value(k), 0.5, 1.0 - value(k), if k % 3 == 0 { 0.5 } else { 1.0 }]);
+    Picture::new(SIDE, SIDE, pixels.collect())
+}
+
+fn pictures(picture: &Picture) -> Outcome {
+    let samples: Vec<u8> = (0..SIDE * SIDE * 4).map(|k| (k * 37) as u8).collect();
+    let mut files = vec![
+        ("colour.png", encode::png(picture, &[("silk", "a text")])?),
+        ("colour.exr", encode::exr(picture)?),
+        ("deep.png", deep_png(&samples)?),
+    ];
+    let side = SIDE as u16;
+    for (name, kind, colours, progressive) in [
+        ("grey.jpg", jpeg_encoder::ColorType::Luma, 1, false),
+        ("colour.jpg", jpeg_encoder::ColorType::Rgb, 3, false),
+        ("progressive.jpg", jpeg_encoder::ColorType::Rgb, 3, true),
+    ] {
+        let mut bytes = Vec::new();
+        let mut encoder = jpeg_encoder::Encoder::new(&mut bytes, 80);
+        encoder.set_progressive(progressive);
+        encoder.encode(&samples[..(SIDE * SIDE) as usize * colours], side, side, kind)?;
+        files.push((name, bytes));
+    }
+    for (name, bytes) in files {
+        put("picture", name, &bytes)?;
+        put("exchange", name, &bytes)?;
+    }
+    Ok(())
+}
+
+/// 16 bits a channel, a grey one with alpha.
+fn deep_png(samples: &[u8]) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, SIDE, SIDE);
+    encoder.set_color(png::ColorType::GrayscaleAlpha);
+    encoder.set_depth(png::BitDepth::Sixteen);
+    encoder.write_header()?.write_image_data(samples)?;
+    Ok(bytes)
+}
+
+/// A table as itself and as a slice atlas.
+fn tables(amc: &Amc) -> Outcome {
+    let (kind, suffix) = match amc.format() {
+        TexelFormat::Srgb8 => ("srgb8", "png"),
+        TexelFormat::Half => ("half", "exr"),
+    };
+    let name = format!("{kind}.amc.ktx2");
+    put("ktx2", &name, &amc.to_ktx2()?)?;
+    let (from, to) =
+        (std::env::temp_dir().join(&name), std::env::temp_dir().join(format!("{kind}.atlas.{suffix}")));
+    amc.save(&from)?;
+    exchange::convert(&from, &to, exchange::Hints::default())?;
+    let atlas = std::fs::read(&to)?;
+    std::fs::remove_file(&from)?;
+    std::fs::remove_file(&to)?;
+    put("exchange", &format!("{kind}.atlas.{suffix}"), &atlas)?;
+    put("exchange", &name, &amc.to_ktx2()?)
+}
