@@ -8,8 +8,8 @@ use super::measure::{Batch, LANES, Lanes, larger, smaller};
 
 /// How far a panel's map from the flat pattern to the surface is from a uniform scale.
 ///
-/// From the singular values of each triangle's map, as in Sander, Snyder, Gortler and Hoppe, "Texture mapping
-/// progressive meshes" (2001), section 3; percentiles over the panel's area in place of their norms.
+/// From the singular values of each triangle's map, as the texture stretch metric of Sander, Snyder, Gortler and
+/// Hoppe, "Texture mapping progressive meshes" (2001); percentiles over the panel's area in place of their norms.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Distortion {
     /// Larger singular value of a triangle's map over the panel's mean scale, the area-weighted mean of

@@ -68,8 +68,9 @@ impl Garment {
     /// Cuts a mesh into panels.
     ///
     /// A panel is a UV island of one part: triangles connected by vertices, which count as one where position and UV
-    /// are the same, so a crease in the normals does not cut. A part without UVs is one panel. Vertices are doubled where triangles of different panels or UV orientations use them, and left out
-    /// where none does; triangles without UV area go with their neighbours.
+    /// are the same, so a crease in the normals does not cut. A part without UVs is one panel. Vertices are doubled
+    /// where triangles of different panels or UV orientations use them, and left out where none does; triangles
+    /// without UV area go with their neighbours.
     ///
     /// # Errors
     /// No triangles, or arrays and indices that do not fit together.
