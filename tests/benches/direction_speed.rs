@@ -102,8 +102,6 @@ fn garment() -> Garment {
             takes_fabric: true,
             area: 1.0,
             flags: Default::default(),
-            stretch: Default::default(),
-            shear: Default::default(),
         });
     }
     garment

@@ -25,8 +25,6 @@ pub(crate) fn garment_of(meshes: &[Mesh]) -> Garment {
             takes_fabric: true,
             area: 0.0,
             flags: Default::default(),
-            stretch: Default::default(),
-            shear: Default::default(),
         });
     }
     if !garment.has_uvs {

@@ -4,6 +4,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::draft::{Draft, DraftPart};
+use super::measure::{LANES, Lanes};
 use super::{Mesh, normals};
 use crate::{Error, Result};
 
@@ -38,6 +39,53 @@ impl Findings {
             area: self.area + other.area,
             turned_area: self.turned_area + other.turned_area,
         }
+    }
+}
+
+/// Some triangles, one array per coordinate.
+struct Batch {
+    /// Edges from the first corner: the first edge's x, y, z, then the second's.
+    edges: [Lanes; 6],
+    /// Sums of the corners' normals: x, y, z.
+    normals: [Lanes; 3],
+}
+
+impl Batch {
+    fn new() -> Self {
+        Self { edges: [[0.0; LANES]; 6], normals: [[0.0; LANES]; 3] }
+    }
+
+    /// Takes at most [`LANES`] triangles; the other lanes have no area.
+    fn fill(&mut self, draft: &Draft, triangles: &[[u32; 3]]) {
+        if triangles.len() < LANES {
+            *self = Self::new();
+        }
+        for (i, &triangle) in triangles.iter().take(LANES).enumerate() {
+            let [p, q, r] = triangle.map(|vertex| draft.positions[vertex as usize]);
+            let [a, b, c] = triangle.map(|vertex| draft.normals[vertex as usize]);
+            let edges = [q - p, r - p].map(|edge| edge.to_array());
+            for (lanes, &x) in self.edges.iter_mut().zip(edges.as_flattened()) {
+                lanes[i] = x;
+            }
+            for (lanes, x) in self.normals.iter_mut().zip((a + b + c).to_array()) {
+                lanes[i] = x;
+            }
+        }
+    }
+
+    /// Twice the areas, zero where [`vector_area`] finds none; and whether the normals look away from the front.
+    fn areas(&self) -> (Lanes, [bool; LANES]) {
+        let ([px, py, pz, qx, qy, qz], [nx, ny, nz]) = (&self.edges, &self.normals);
+        let (mut areas, mut turned) = ([0.0; LANES], [false; LANES]);
+        for i in 0..LANES {
+            let (px, py, pz, qx, qy, qz) = (px[i], py[i], pz[i], qx[i], qy[i], qz[i]);
+            let (x, y, z) = (py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx);
+            let square = x * x + y * y + z * z;
+            let lengths = (px * px + py * py + pz * pz) * (qx * qx + qy * qy + qz * qz);
+            areas[i] = if square > (NO_ANGLE * NO_ANGLE) * lengths { square.sqrt() } else { 0.0 };
+            turned[i] = x * nx[i] + y * ny[i] + z * nz[i] < 0.0;
+        }
+        (areas, turned)
     }
 }
 
@@ -83,18 +131,21 @@ pub(super) fn check(mut draft: Draft) -> Result<Mesh> {
 /// One finding per part.
 fn look(draft: &Draft) -> Vec<Findings> {
     let look_at = |triangles: &[[u32; 3]]| {
-        triangles.iter().fold(Findings::default(), |mut found, &triangle| {
-            match vector_area(&draft.positions, triangle) {
-                None => found.without_area += 1,
-                Some(cross) => {
-                    let area = cross.length();
-                    let [a, b, c] = triangle.map(|i| draft.normals[i as usize]);
-                    found.area += area;
-                    found.turned_area += if cross.dot(a + b + c) < 0.0 { area } else { 0.0 };
-                }
+        let mut batch = Batch::new();
+        let (mut found, mut with_area) = (Findings::default(), [0u32; LANES]);
+        let (mut area, mut turned_area) = ([0.0; LANES], [0.0; LANES]);
+        for triangles in triangles.chunks(LANES) {
+            batch.fill(draft, triangles);
+            let (areas, turned) = batch.areas();
+            for i in 0..LANES {
+                with_area[i] += u32::from(areas[i] > 0.0);
+                area[i] += areas[i];
+                turned_area[i] += if turned[i] { areas[i] } else { 0.0 };
             }
-            found
-        })
+        }
+        found.without_area = triangles.len() - with_area.iter().sum::<u32>() as usize;
+        (found.area, found.turned_area) = (area.iter().sum(), turned_area.iter().sum());
+        found
     };
     let look_at_part = |part: &DraftPart| {
         let chunks = draft.triangles[part.triangles.clone()].par_chunks(CHUNK);

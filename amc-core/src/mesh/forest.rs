@@ -34,6 +34,17 @@ impl Forest {
         }
     }
 
+    /// Joins the sets of three numbers.
+    #[inline]
+    pub(super) fn join_three(&mut self, [i, j, k]: [u32; 3]) {
+        // Most triangles of a mesh lie between vertices whose parents are the root already.
+        let [a, b, c] = [i, j, k].map(|number| self.0[number as usize]);
+        if a != b || b != c {
+            self.join(a, b);
+            self.join(b, c);
+        }
+    }
+
     /// The root of every number.
     pub(super) fn into_roots(mut self) -> Vec<u32> {
         // A parent is never larger than its child, so one sweep upwards is enough.

@@ -5,21 +5,29 @@ use glam::{Vec2, Vec3};
 use super::forest::Forest;
 use super::weld::{bits, weld};
 
-/// Which island each triangle belongs to.
+/// The islands of one part.
 pub(super) struct Islands {
-    /// Numbered in the order of their first triangles.
-    pub(super) of_triangle: Vec<u32>,
-    /// How many there are.
-    pub(super) count: usize,
+    /// Triangles of one island that stand together, in the order of the triangles.
+    runs: Vec<Run>,
+    /// The box of each island in the flat pattern; islands are numbered in the order of their first triangles.
+    pub(super) uv_boxes: Vec<(Vec2, Vec2)>,
     /// Whether some vertex is used by no triangle.
     pub(super) unused: bool,
+}
+
+/// Triangles of one piece or island that stand together.
+#[derive(Clone, Copy)]
+struct Run {
+    of: u32,
+    start: u32,
+    end: u32,
 }
 
 /// Above this many pieces it is quicker to compare all vertices than all pairs of pieces.
 const PIECES_COMPARED: usize = 512;
 
-/// Finds the UV islands of triangles that share no vertex across parts; `parts` gives each triangle's part, and
-/// triangles of parts in `whole` are joined into one island whatever their UVs.
+/// Finds the UV islands of a part: its vertices, and its triangles, which count vertices from `first`. With `whole`
+/// all are one island.
 ///
 /// Vertices count as one where position and UV are the same, so a crease (normals doubled) does not cut. Triangles
 /// that share a vertex belong together; pieces that touch in the UV map but not on the surface stay apart.
@@ -27,124 +35,177 @@ pub(super) fn find(
     positions: &[Vec3],
     uvs: &[Vec2],
     triangles: &[[u32; 3]],
-    parts: &[u32],
-    whole: &[bool],
+    first: u32,
+    whole: bool,
 ) -> Islands {
-    let mut forest = connect(triangles, positions.len());
-    let pieces = Pieces::new(&mut forest, triangles, parts, positions.len());
-    let mut changed = join_equal(positions, uvs, &pieces, &mut forest);
-    if whole.contains(&true) {
-        changed = true;
-        let mut first = vec![u32::MAX; whole.len()];
-        for (triangle, &part) in triangles.iter().zip(parts).filter(|(_, part)| whole[**part as usize]) {
-            let first = &mut first[part as usize];
-            *first = (*first).min(triangle[0]);
-            forest.join(*first, triangle[0]);
+    let mut forest = Forest::new(positions.len());
+    for triangle in triangles {
+        forest.join_three(triangle.map(|vertex| vertex - first));
+    }
+    let pieces = Pieces::new(forest.into_roots(), positions, uvs, triangles, first);
+    let count = pieces.boxes.len();
+    let mut joined = Forest::new(count);
+    if whole {
+        (1..count as u32).for_each(|piece| joined.join(0, piece));
+    } else if count > 1 {
+        join_equal(positions, uvs, &pieces, &mut joined);
+    }
+    pieces.into_islands(joined)
+}
+
+impl Islands {
+    /// Puts the triangles of each island together, islands in their order; gives how many each has.
+    pub(super) fn sort(&mut self, triangles: &mut [[u32; 3]]) -> Vec<usize> {
+        let mut sizes = vec![0; self.uv_boxes.len()];
+        for run in &self.runs {
+            sizes[run.of as usize] += (run.end - run.start) as usize;
         }
-    }
-    if changed {
-        let (of_triangle, _, count) = number(&mut forest, triangles, positions.len());
-        return Islands { of_triangle, count, unused: pieces.unused };
-    }
-    Islands { of_triangle: pieces.of_triangle, count: pieces.parts.len(), unused: pieces.unused }
-}
-
-fn connect(triangles: &[[u32; 3]], count: usize) -> Forest {
-    let mut forest = Forest::new(count);
-    for &[a, b, c] in triangles {
-        forest.join(a, b);
-        forest.join(b, c);
-    }
-    forest
-}
-
-/// Numbers the sets in the order of their first triangles: the number of each triangle, of each root, and how many.
-fn number(forest: &mut Forest, triangles: &[[u32; 3]], count: usize) -> (Vec<u32>, Vec<u32>, usize) {
-    let mut numbers = vec![u32::MAX; count];
-    let mut next = 0;
-    let of_triangle = triangles
-        .iter()
-        .map(|triangle| {
-            let number = &mut numbers[forest.root(triangle[0]) as usize];
-            if *number == u32::MAX {
-                *number = next;
-                next += 1;
+        if !self.runs.is_sorted_by_key(|run| run.of) {
+            self.runs.sort_by_key(|run| run.of);
+            let mut sorted = Vec::with_capacity(triangles.len());
+            for run in &self.runs {
+                sorted.extend_from_slice(&triangles[run.start as usize..run.end as usize]);
             }
-            *number
-        })
-        .collect();
-    (of_triangle, numbers, next as usize)
+            triangles.copy_from_slice(&sorted);
+        }
+        sizes
+    }
 }
 
-/// The pieces connected by their indices alone.
+/// The box of some vertices in space and in the flat pattern.
+#[derive(Clone, Copy)]
+struct Bounds {
+    low: Vec3,
+    high: Vec3,
+    uv_low: Vec2,
+    uv_high: Vec2,
+}
+
+impl Bounds {
+    const EMPTY: Self = Self {
+        low: Vec3::INFINITY,
+        high: Vec3::NEG_INFINITY,
+        uv_low: Vec2::INFINITY,
+        uv_high: Vec2::NEG_INFINITY,
+    };
+
+    #[inline]
+    fn add(&mut self, position: Vec3, uv: Vec2) {
+        (self.low, self.high) = (self.low.min(position), self.high.max(position));
+        (self.uv_low, self.uv_high) = (self.uv_low.min(uv), self.uv_high.max(uv));
+    }
+
+    fn meet(&self, other: &Self) -> bool {
+        let space = self.low.cmple(other.high).all() && other.low.cmple(self.high).all();
+        space && self.uv_low.cmple(other.uv_high).all() && other.uv_low.cmple(self.uv_high).all()
+    }
+}
+
+/// The pieces connected by their indices alone, numbered in the order of their first triangles.
 struct Pieces {
-    of_triangle: Vec<u32>,
-    /// The part of each piece.
-    parts: Vec<u32>,
-    /// The piece of each vertex; `u32::MAX` where no triangle uses it.
-    of_vertex: Vec<u32>,
+    runs: Vec<Run>,
+    boxes: Vec<Bounds>,
+    /// The least vertex of the piece of each vertex.
+    roots: Vec<u32>,
+    /// One more than the number of each piece, at its least vertex; zero elsewhere.
+    numbers: Vec<u32>,
     unused: bool,
 }
 
 impl Pieces {
-    fn new(forest: &mut Forest, triangles: &[[u32; 3]], parts: &[u32], vertices: usize) -> Self {
-        let (of_triangle, mut numbers, count) = number(forest, triangles, vertices);
-        let mut part_of = vec![0; count];
-        for (&piece, &part) in of_triangle.iter().zip(parts) {
-            part_of[piece as usize] = part;
+    fn new(roots: Vec<u32>, positions: &[Vec3], uvs: &[Vec2], triangles: &[[u32; 3]], first: u32) -> Self {
+        let mut numbers = vec![0u32; roots.len()];
+        let (mut runs, mut count, mut start) = (Vec::new(), 0, 0);
+        let same =
+            |a: &[u32; 3], b: &[u32; 3]| roots[(a[0] - first) as usize] == roots[(b[0] - first) as usize];
+        for run in triangles.chunk_by(same) {
+            let number = &mut numbers[roots[(run[0][0] - first) as usize] as usize];
+            if *number == 0 {
+                count += 1;
+                *number = count;
+            }
+            let end = start + run.len() as u32;
+            runs.push(Run { of: *number - 1, start, end });
+            start = end;
         }
-        // A root is the least of its set: its number is there before the others ask for it.
-        for vertex in 0..vertices as u32 {
-            numbers[vertex as usize] = numbers[forest.root(vertex) as usize];
+        let mut pieces =
+            Self { runs, boxes: vec![Bounds::EMPTY; count as usize], roots, numbers, unused: false };
+        pieces.bound(positions, uvs);
+        pieces
+    }
+
+    fn bound(&mut self, positions: &[Vec3], uvs: &[Vec2]) {
+        let mut start = 0;
+        for run in self.roots.chunk_by(|a, b| a == b) {
+            let (vertices, piece) = (start..start + run.len(), self.numbers[run[0] as usize]);
+            start = vertices.end;
+            // A vertex that no triangle uses is alone and has no number.
+            let Some(bounds) = self.boxes.get_mut((piece as usize).wrapping_sub(1)) else {
+                self.unused = true;
+                continue;
+            };
+            let mut within = Bounds::EMPTY;
+            for (&position, &uv) in positions[vertices.clone()].iter().zip(&uvs[vertices]) {
+                within.add(position, uv);
+            }
+            bounds.add(within.low, within.uv_low);
+            bounds.add(within.high, within.uv_high);
         }
-        let unused = numbers.contains(&u32::MAX);
-        Self { of_triangle, parts: part_of, of_vertex: numbers, unused }
+    }
+
+    /// The piece of a vertex; none where no triangle uses it.
+    fn of(&self, vertex: u32) -> Option<u32> {
+        self.numbers[self.roots[vertex as usize] as usize].checked_sub(1)
+    }
+
+    /// Joins pieces to islands.
+    fn into_islands(mut self, joined: Forest) -> Islands {
+        let roots = joined.into_roots();
+        let mut islands = vec![0; roots.len()];
+        let mut boxes: Vec<(Vec2, Vec2)> = Vec::new();
+        for (piece, (&root, bounds)) in roots.iter().zip(&self.boxes).enumerate() {
+            // A root is the least of its set: its number is there before the others ask for it.
+            if root as usize == piece {
+                islands[piece] = boxes.len() as u32;
+                boxes.push((bounds.uv_low, bounds.uv_high));
+            }
+            islands[piece] = islands[root as usize];
+            let (low, high) = &mut boxes[islands[piece] as usize];
+            (*low, *high) = (low.min(bounds.uv_low), high.max(bounds.uv_high));
+        }
+        self.runs.iter_mut().for_each(|run| run.of = islands[run.of as usize]);
+        Islands { runs: self.runs, uv_boxes: boxes, unused: self.unused }
     }
 }
 
-/// Joins the vertices of one part with the same position and UV; whether there were any.
+/// Joins the pieces that have vertices with the same position and UV.
 ///
-/// Only pieces of one part whose boxes meet can share a vertex, and only vertices of those are compared.
-fn join_equal(positions: &[Vec3], uvs: &[Vec2], pieces: &Pieces, forest: &mut Forest) -> bool {
-    let count = pieces.parts.len();
-    let suspect =
-        if count > PIECES_COMPARED { vec![true; count] } else { meeting_pieces(positions, uvs, pieces) };
-    let compared: Vec<u32> = (0..positions.len() as u32)
-        .filter(|&vertex| suspect.get(pieces.of_vertex[vertex as usize] as usize) == Some(&true))
-        .collect();
-    let first = weld(compared.len(), |k| {
-        let vertex = compared[k] as usize;
-        let ([x, y, z], [u, v]) = (positions[vertex].to_array(), uvs[vertex].to_array());
-        let part = pieces.parts[pieces.of_vertex[vertex] as usize];
-        [bits(x), bits(y), bits(z), bits(u), bits(v), part]
-    });
-    let mut any = false;
-    for (&vertex, &first) in compared.iter().zip(&first) {
-        let first = compared[first as usize];
-        any |= first != vertex;
-        forest.join(first, vertex);
+/// Only pieces whose boxes meet can share a vertex, and only vertices of those are compared.
+fn join_equal(positions: &[Vec3], uvs: &[Vec2], pieces: &Pieces, joined: &mut Forest) {
+    let suspect = meeting(&pieces.boxes);
+    if !suspect.contains(&true) {
+        return;
     }
-    any
+    let compared: Vec<(u32, u32)> = (0..positions.len() as u32)
+        .filter_map(|vertex| Some((vertex, pieces.of(vertex)?)))
+        .filter(|&(_, piece)| suspect[piece as usize])
+        .collect();
+    let same = weld(compared.len(), |k| {
+        let vertex = compared[k].0 as usize;
+        let ([x, y, z], [u, v]) = (positions[vertex].to_array(), uvs[vertex].to_array());
+        [bits(x), bits(y), bits(z), bits(u), bits(v)]
+    });
+    for (&(_, piece), &same) in compared.iter().zip(&same) {
+        joined.join(compared[same as usize].1, piece);
+    }
 }
 
-/// The pieces whose box in space and in the UV map meets that of another piece of the same part.
-fn meeting_pieces(positions: &[Vec3], uvs: &[Vec2], pieces: &Pieces) -> Vec<bool> {
-    let count = pieces.parts.len();
-    let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY, Vec2::INFINITY, Vec2::NEG_INFINITY);
-    let mut boxes = vec![empty; count];
-    for ((&p, &uv), &piece) in positions.iter().zip(uvs).zip(&pieces.of_vertex) {
-        if let Some((low, high, uv_low, uv_high)) = boxes.get_mut(piece as usize) {
-            (*low, *high) = (low.min(p), high.max(p));
-            (*uv_low, *uv_high) = (uv_low.min(uv), uv_high.max(uv));
-        }
-    }
-    let mut suspect = vec![false; count];
-    for i in 0..count {
-        for j in 0..i {
-            let ((a, b, c, d), (e, f, g, h)) = (boxes[i], boxes[j]);
-            let space = a.cmple(f).all() && e.cmple(b).all();
-            let pattern = c.cmple(h).all() && g.cmple(d).all();
-            if pieces.parts[i] == pieces.parts[j] && space && pattern {
+/// The pieces whose box meets that of another; all, where they are many.
+fn meeting(boxes: &[Bounds]) -> Vec<bool> {
+    let mut suspect = vec![boxes.len() > PIECES_COMPARED; boxes.len()];
+    if boxes.len() <= PIECES_COMPARED {
+        for i in 0..boxes.len() {
+            for j in (0..i).filter(|&j| boxes[i].meet(&boxes[j])) {
                 suspect[i] = true;
                 suspect[j] = true;
             }
@@ -157,10 +218,20 @@ fn meeting_pieces(positions: &[Vec3], uvs: &[Vec2], pieces: &Pieces) -> Vec<bool
 mod tests {
     use super::*;
 
-    fn islands(uvs: &[[f32; 2]], triangles: &[[u32; 3]]) -> Vec<u32> {
+    /// The island of each triangle, taken from the numbers of triangles before and after sorting.
+    fn find_in(positions: &[Vec3], uvs: &[Vec2], triangles: &[[u32; 3]], whole: bool) -> Vec<usize> {
+        let mut islands = find(positions, uvs, triangles, 0, whole);
+        let mut sorted = triangles.to_vec();
+        let sizes = islands.sort(&mut sorted);
+        let of: Vec<usize> = sizes.iter().enumerate().flat_map(|(k, &size)| vec![k; size]).collect();
+        let place = |triangle| sorted.iter().position(|other| other == triangle);
+        triangles.iter().map(|triangle| of[place(triangle).unwrap()]).collect()
+    }
+
+    fn islands(uvs: &[[f32; 2]], triangles: &[[u32; 3]]) -> Vec<usize> {
         let uvs: Vec<Vec2> = uvs.iter().map(|&uv| Vec2::from(uv)).collect();
         let positions: Vec<Vec3> = uvs.iter().map(|uv| uv.extend(0.0)).collect();
-        find(&positions, &uvs, triangles, &vec![0; triangles.len()], &[false]).of_triangle
+        find_in(&positions, &uvs, triangles, false)
     }
 
     #[test]
@@ -181,8 +252,7 @@ mod tests {
         let uvs = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::ONE, Vec2::new(2.0, 1.0), Vec2::splat(2.0)];
         let positions: Vec<Vec3> =
             uvs.iter().enumerate().map(|(i, uv)| uv.extend(f32::from(i > 2))).collect();
-        let found = find(&positions, &uvs, &[[0, 1, 2], [3, 4, 5]], &[0, 0], &[false]);
-        assert_eq!(found.of_triangle, [0, 1]);
+        assert_eq!(find_in(&positions, &uvs, &[[0, 1, 2], [3, 4, 5]], false), [0, 1]);
     }
 
     #[test]
@@ -191,8 +261,7 @@ mod tests {
         let uvs = [uv, uv].concat();
         let mut positions: Vec<Vec3> = uvs.iter().map(|uv| uv.extend(0.0)).collect();
         positions[3..].iter_mut().for_each(|p| p.z = 1.0);
-        let found = find(&positions, &uvs, &[[0, 1, 2], [3, 4, 5]], &[0, 0], &[false]);
-        assert_eq!((found.of_triangle, found.count), (vec![0, 1], 2));
+        assert_eq!(find_in(&positions, &uvs, &[[0, 1, 2], [3, 4, 5]], false), [0, 1]);
     }
 
     #[test]
@@ -213,7 +282,35 @@ mod tests {
     #[test]
     fn a_part_without_uvs_is_one_island() {
         let positions = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE, -Vec3::ONE];
-        let found = find(&positions, &[Vec2::ZERO; 6], &[[0, 1, 2], [3, 4, 5]], &[0, 0], &[true]);
-        assert_eq!(found.count, 1);
+        assert_eq!(find_in(&positions, &[Vec2::ZERO; 6], &[[0, 1, 2], [3, 4, 5]], true), [0, 0]);
+    }
+
+    #[test]
+    fn islands_that_take_turns_are_put_together_in_the_order_of_their_first_triangles() {
+        // Two strips of squares far apart; the second comes first, and a vertex of neither follows.
+        let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+        for k in 0..10u32 {
+            for x in [0.0, 100.0] {
+                positions.push(Vec3::new(x, k as f32, 0.0));
+                positions.push(Vec3::new(x + 1.0, k as f32, 0.0));
+            }
+        }
+        positions.push(Vec3::ONE * 0.5);
+        for k in 0..9u32 {
+            for strip in [2, 0] {
+                let a = 7 + 4 * k + strip;
+                triangles.extend([[a, a + 1, a + 5], [a, a + 5, a + 4]]);
+            }
+        }
+        let uvs: Vec<Vec2> = positions.iter().map(|p| p.truncate()).collect();
+        let mut found = find(&positions, &uvs, &triangles, 7, false);
+        let mut sorted = triangles.clone();
+        assert_eq!((found.sort(&mut sorted), found.unused), (vec![18, 18], true));
+        let far = |triangle: &[u32; 3]| positions[triangle[0] as usize - 7].x >= 100.0;
+        assert!(sorted[..18].iter().all(far) && !sorted[18..].iter().any(far));
+        let kept = |all: &[[u32; 3]]| all.iter().copied().filter(far).collect::<Vec<_>>();
+        assert_eq!(kept(&sorted), kept(&triangles));
+        let (low, high) = found.uv_boxes[0];
+        assert_eq!((low, high), (Vec2::new(100.0, 0.0), Vec2::new(101.0, 9.0)));
     }
 }

@@ -1,10 +1,9 @@
-//! A panel's area, and how its cloth is stretched and sheared.
-
-use std::ops::Range;
+//! The area of panels, and the orientation of their UVs.
 
 use glam::{DVec3, Vec2, Vec3};
+use rayon::prelude::*;
 
-use super::panel::{PanelFlags, Percentiles};
+use super::panel::PanelFlags;
 
 /// Twice the signed area of a triangle in the flat pattern; zero where it is lost in rounding.
 pub(crate) fn uv_area([a, b, c]: [Vec2; 3]) -> f32 {
@@ -30,12 +29,12 @@ fn lost_area(squares: f32, largest: f32) -> f32 {
 
 /// Unlike `f32::max` this is one instruction.
 #[inline(always)]
-fn larger(a: f32, b: f32) -> f32 {
+pub(super) fn larger(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
 #[inline(always)]
-fn smaller(a: f32, b: f32) -> f32 {
+pub(super) fn smaller(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
@@ -44,262 +43,168 @@ fn smaller(a: f32, b: f32) -> f32 {
 pub(super) struct Figures {
     pub(super) area: f32,
     pub(super) flags: PanelFlags,
-    pub(super) stretch: Percentiles,
-    pub(super) shear: Percentiles,
+    /// Whether it has triangles of both UV orientations.
+    pub(super) folded: bool,
     /// Area-weighted centre on the surface.
     pub(super) centre: Vec3,
     /// Corners of the box in the flat pattern.
     pub(super) uv_box: (Vec2, Vec2),
 }
 
-/// Triangles measured at a time, so that the compiler can use vector instructions.
-const LANES: usize = 16;
+/// Triangles looked at together, so that the compiler can use vector instructions.
+pub(super) const LANES: usize = 16;
 
-type Lanes = [f32; LANES];
+/// Triangles that one task measures.
+const CHUNK: usize = 16 * 1024;
 
-/// Edges of some triangles, from their first corners; one array per coordinate.
-struct Batch {
-    /// In space: the first edge's x, y, z, then the second's.
-    edges: [Lanes; 6],
-    /// In the flat pattern: the first edge's u, v, then the second's.
-    uv_edges: [Lanes; 4],
+/// Triangles whose figures are summed in single precision.
+const SINGLE: usize = 64 * LANES;
+
+/// One number of some triangles.
+pub(super) type Lanes = [f32; LANES];
+
+/// Some triangles, one array per coordinate.
+pub(super) struct Batch {
+    /// Their first corners: x, y, z.
+    pub(super) corner: [Lanes; 3],
+    /// Edges in space from the first corner: the first edge's x, y, z, then the second's.
+    pub(super) edges: [Lanes; 6],
+    /// Edges in the flat pattern: the first edge's u, v, then the second's.
+    pub(super) uv_edges: [Lanes; 4],
     /// The largest coordinate in the flat pattern, unsigned.
     largest_uv: Lanes,
 }
 
-/// Figures of some triangles.
-struct Measured {
-    /// Area, square metres.
-    size: Lanes,
-    /// Twice the signed area in the flat pattern; zero where it is lost.
-    uv_area: Lanes,
-    /// Larger singular value of the map from the flat pattern to the surface, metres per unit.
-    larger: Lanes,
-    /// (1 - cos)/2 of the angle between dP/du and dP/dv: grows with the angle, from 0 to 1.
-    shear_key: Lanes,
-    /// Area times the root of area over UV area.
-    scale: Lanes,
-}
-
 impl Batch {
-    fn measure(&self) -> Measured {
+    pub(super) fn new() -> Self {
         let zeros = [0.0; LANES];
-        let mut out = Measured { size: zeros, uv_area: zeros, larger: zeros, shear_key: zeros, scale: zeros };
-        let ([px, py, pz, qx, qy, qz], [au, av, bu, bv]) = (&self.edges, &self.uv_edges);
-        for i in 0..LANES {
-            let (px, py, pz, qx, qy, qz) = (px[i], py[i], pz[i], qx[i], qy[i], qz[i]);
-            let (au, av, bu, bv) = (au[i], av[i], bu[i], bv[i]);
-            let (nx, ny, nz) = (py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx);
-            let size = 0.5 * (nx * nx + ny * ny + nz * nz).sqrt();
-            let area = au * bv - av * bu;
-            let inverse = 1.0 / area;
-            // dP/du and dP/dv.
-            let (ux, uy, uz) = (px * bv - qx * av, py * bv - qy * av, pz * bv - qz * av);
-            let (vx, vy, vz) = (qx * au - px * bu, qy * au - py * bu, qz * au - pz * bu);
-            // The first fundamental form (E F; F G); its eigenvalues are the squares of the map's singular values.
-            let square = inverse * inverse;
-            let e = (ux * ux + uy * uy + uz * uz) * square;
-            let f = (ux * vx + uy * vy + uz * vz) * square;
-            let g = (vx * vx + vy * vy + vz * vz) * square;
-            let (mean, difference) = (0.5 * (e + g), 0.5 * (e - g));
-            let cosine = smaller(larger(f / (e * g).sqrt(), -1.0), 1.0);
-            let squares = au * au + av * av + bu * bu + bv * bv;
-            let lost = lost_area(squares, self.largest_uv[i]);
-            out.size[i] = size;
-            out.uv_area[i] = if area.abs() > lost { area } else { 0.0 };
-            out.larger[i] = (mean + (difference * difference + f * f).sqrt()).sqrt();
-            out.shear_key[i] = 0.5 - 0.5 * cosine;
-            out.scale[i] = size * (2.0 * size * inverse.abs()).sqrt();
-        }
-        out
+        Self { corner: [zeros; 3], edges: [zeros; 6], uv_edges: [zeros; 4], largest_uv: zeros }
     }
-}
 
-/// Measures the triangles in `range`.
-///
-/// Stretch is each triangle's larger singular value over the panel's mean scale, the area-weighted mean of
-/// sqrt(surface area / UV area): 1 everywhere where the pattern is only scaled. Triangles whose UVs have no area
-/// count for the area and the flag `degenerate` only.
-pub(super) fn measure(
-    positions: &[Vec3],
-    uvs: &[Vec2],
-    triangles: &[[u32; 3]],
-    range: Range<usize>,
-) -> Figures {
-    let count = range.len();
-    let mut stretch = Weighted::with_capacity(count);
-    let mut shear = Vec::with_capacity(count);
-    let (mut area, mut mirrored, mut scale) = (0.0f64, 0.0f64, 0.0f64);
-    let (mut moment, mut low, mut high) = (DVec3::ZERO, Vec2::INFINITY, Vec2::NEG_INFINITY);
-    let zeros = [0.0; LANES];
-    let mut batch = Batch { edges: [zeros; 6], uv_edges: [zeros; 4], largest_uv: zeros };
-    let mut sums = [Vec3::ZERO; LANES];
-    for triangles in triangles[range].chunks(LANES) {
-        for (i, &triangle) in triangles.iter().enumerate() {
+    /// Takes at most [`LANES`] triangles; the other lanes have no area.
+    pub(super) fn fill(&mut self, positions: &[Vec3], uvs: &[Vec2], triangles: &[[u32; 3]]) {
+        if triangles.len() < LANES {
+            *self = Self::new();
+        }
+        for (i, &triangle) in triangles.iter().take(LANES).enumerate() {
             let [p, q, r] = triangle.map(|vertex| positions[vertex as usize]);
             let [a, b, c] = triangle.map(|vertex| uvs[vertex as usize]);
+            for (lanes, x) in self.corner.iter_mut().zip(p.to_array()) {
+                lanes[i] = x;
+            }
             let edges = [q - p, r - p].map(|edge| edge.to_array());
-            for (lanes, &x) in batch.edges.iter_mut().zip(edges.as_flattened()) {
+            for (lanes, &x) in self.edges.iter_mut().zip(edges.as_flattened()) {
                 lanes[i] = x;
             }
             let uv_edges = [b - a, c - a].map(|edge| edge.to_array());
-            for (lanes, &x) in batch.uv_edges.iter_mut().zip(uv_edges.as_flattened()) {
+            for (lanes, &x) in self.uv_edges.iter_mut().zip(uv_edges.as_flattened()) {
                 lanes[i] = x;
             }
-            batch.largest_uv[i] = largest([a, b, c]);
-            sums[i] = p + q + r;
-            for uv in [a, b, c] {
-                low = Vec2::new(smaller(uv.x, low.x), smaller(uv.y, low.y));
-                high = Vec2::new(larger(uv.x, high.x), larger(uv.y, high.y));
-            }
+            self.largest_uv[i] = largest([a, b, c]);
         }
-        let measured = batch.measure();
-        let (mut batch_area, mut batch_mirrored, mut batch_scale) = (0.0f32, 0.0f32, 0.0f32);
-        let mut batch_moment = Vec3::ZERO;
-        for (i, &sum) in sums[..triangles.len()].iter().enumerate() {
-            let size = measured.size[i];
-            batch_area += size;
-            batch_moment += sum * size;
-            let (value, key) = (measured.larger[i], measured.shear_key[i]);
-            if measured.uv_area[i] != 0.0 && value.is_finite() && key.is_finite() {
-                batch_mirrored += if measured.uv_area[i] < 0.0 { size } else { 0.0 };
-                batch_scale += measured.scale[i];
-                stretch.push(value, size);
-                shear.push(key);
-            }
-        }
-        area += f64::from(batch_area);
-        mirrored += f64::from(batch_mirrored);
-        scale += f64::from(batch_scale);
-        moment += batch_moment.as_dvec3() / 3.0;
-    }
-    let degenerate = shear.len() < count;
-    let shear = Weighted { values: shear, weights: stretch.weights.clone() };
-    let flat_area: f64 = shear.weights.iter().map(|&weight| f64::from(weight)).sum();
-    let mean_scale = if scale > 0.0 { scale / flat_area } else { 1.0 };
-    Figures {
-        area: area as f32,
-        flags: PanelFlags { mirrored: mirrored > 0.5 * area, degenerate },
-        stretch: stretch.percentiles().map(|x| (f64::from(x) / mean_scale) as f32),
-        shear: shear
-            .percentiles()
-            .map(|key| if degenerate && flat_area == 0.0 { 0.0 } else { (1.0 - 2.0 * key).acos() }),
-        centre: if area > 0.0 { (moment / area).as_vec3() } else { Vec3::ZERO },
-        uv_box: if count > 0 { (low, high) } else { (Vec2::ZERO, Vec2::ZERO) },
-    }
-}
-
-impl Percentiles {
-    fn map(self, f: impl Fn(f32) -> f32) -> Self {
-        Self { p5: f(self.p5), p50: f(self.p50), p95: f(self.p95) }
-    }
-}
-
-/// Finite values with weights.
-struct Weighted {
-    values: Vec<f32>,
-    weights: Vec<f32>,
-}
-
-const BINS: usize = 512;
-
-/// A histogram of weights over equal steps from the least value to the largest.
-struct Bins {
-    low: f32,
-    scale: f32,
-    weights: [f32; BINS],
-}
-
-impl Weighted {
-    fn with_capacity(count: usize) -> Self {
-        Self { values: Vec::with_capacity(count), weights: Vec::with_capacity(count) }
     }
 
-    fn push(&mut self, value: f32, weight: f32) {
-        self.values.push(value);
-        self.weights.push(weight);
+    /// Areas, square metres.
+    pub(super) fn areas(&self) -> Lanes {
+        let [px, py, pz, qx, qy, qz] = &self.edges;
+        std::array::from_fn(|i| {
+            let (x, y, z) =
+                (py[i] * qz[i] - pz[i] * qy[i], pz[i] * qx[i] - px[i] * qz[i], px[i] * qy[i] - py[i] * qx[i]);
+            0.5 * (x * x + y * y + z * z).sqrt()
+        })
     }
 
-    fn iter(&self) -> impl Iterator<Item = (f32, f32)> + '_ {
-        self.values.iter().copied().zip(self.weights.iter().copied())
-    }
-
-    /// By weight: the least value that, with all below, holds at least that share. Zeros where there are no values.
-    fn percentiles(&self) -> Percentiles {
-        let bins = Bins::new(self);
-        let total: f64 = bins.weights.iter().map(|&weight| f64::from(weight)).sum();
-        let [p5, p50, p95] = self.select(&bins, [0.05 * total, 0.5 * total, 0.95 * total]);
-        Percentiles { p5, p50, p95 }
-    }
-
-    /// For each target the least value that, with all below, holds at least that weight.
-    fn select<const N: usize>(&self, bins: &Bins, targets: [f64; N]) -> [f32; N] {
-        let wanted = targets.map(|target| bins.find(target));
-        let mut is_wanted = [false; BINS];
-        wanted.iter().for_each(|&(bin, _)| is_wanted[bin] = true);
-        let mut inside: Vec<(usize, f32, f32)> = Vec::new();
-        for (value, weight) in self.iter() {
-            let bin = bins.bin(value);
-            if is_wanted[bin] {
-                inside.push((bin, value, weight));
-            }
-        }
-        let mut k = 0;
-        targets.map(|target| {
-            let (bin, mut below) = wanted[k];
-            k += 1;
-            let mut items: Vec<(f32, f32)> = inside
-                .iter()
-                .filter(|item| item.0 == bin)
-                .map(|&(_, value, weight)| (value, weight))
-                .collect();
-            // The bins of the least and the largest value differ, so what is inside grows less each time.
-            if items.len() > 4 * BINS && items.len() < self.values.len() {
-                let (values, weights) = items.into_iter().unzip();
-                let inside = Self { values, weights };
-                return inside.select(&Bins::new(&inside), [target - below])[0];
-            }
-            items.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-            let reached = items.iter().find(|item| {
-                below += f64::from(item.1);
-                below >= target
-            });
-            reached.or(items.last()).map_or(0.0, |item| item.0)
+    /// Twice the signed areas in the flat pattern, as [`uv_area`] gives them.
+    pub(super) fn uv_areas(&self) -> Lanes {
+        let [au, av, bu, bv] = &self.uv_edges;
+        std::array::from_fn(|i| {
+            let area = au[i] * bv[i] - av[i] * bu[i];
+            let squares = (au[i] * au[i] + av[i] * av[i]) + (bu[i] * bu[i] + bv[i] * bv[i]);
+            if area.abs() > lost_area(squares, self.largest_uv[i]) { area } else { 0.0 }
         })
     }
 }
 
-impl Bins {
-    fn new(items: &Weighted) -> Self {
-        let (mut low, mut high) = (f32::INFINITY, f32::NEG_INFINITY);
-        for &value in &items.values {
-            (low, high) = (smaller(value, low), larger(value, high));
-        }
-        let mut bins = Self { low, scale: (BINS - 1) as f32 / (high - low), weights: [0.0; BINS] };
-        for (value, weight) in items.iter() {
-            bins.weights[bins.bin(value)] += weight;
-        }
-        bins
-    }
+/// Sums over some triangles.
+#[derive(Default)]
+struct Sums {
+    area: f64,
+    mirrored_area: f64,
+    /// Area times centre.
+    moment: DVec3,
+    /// Triangles whose UVs have an area, as seen from the front.
+    upright: u32,
+    mirrored: u32,
+}
 
-    /// The bin in which a weight is reached, counted from the least value, and the weight below that bin.
-    fn find(&self, target: f64) -> (usize, f64) {
-        let (mut below, mut found) = (0.0, (0, 0.0));
-        for (bin, &weight) in self.weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
-            found = (bin, below);
-            below += f64::from(weight);
-            if below >= target {
-                break;
+impl Sums {
+    fn new(positions: &[Vec3], uvs: &[Vec2], triangles: &[[u32; 3]]) -> Self {
+        let mut sums = Self::default();
+        let mut batch = Batch::new();
+        for triangles in triangles.chunks(SINGLE) {
+            let zeros = [0.0; LANES];
+            let (mut area, mut mirrored_area, mut moment) = (zeros, zeros, [zeros; 3]);
+            let (mut upright, mut mirrored) = ([0; LANES], [0; LANES]);
+            for triangles in triangles.chunks(LANES) {
+                batch.fill(positions, uvs, triangles);
+                let (areas, uv_areas) = (batch.areas(), batch.uv_areas());
+                for i in 0..LANES {
+                    area[i] += areas[i];
+                    mirrored_area[i] += if uv_areas[i] < 0.0 { areas[i] } else { 0.0 };
+                    upright[i] += u32::from(uv_areas[i] > 0.0);
+                    mirrored[i] += u32::from(uv_areas[i] < 0.0);
+                }
+                for (axis, moment) in moment.iter_mut().enumerate() {
+                    let (corner, p, q) = (&batch.corner[axis], &batch.edges[axis], &batch.edges[axis + 3]);
+                    for i in 0..LANES {
+                        moment[i] += areas[i] * (corner[i] + (p[i] + q[i]) * (1.0 / 3.0));
+                    }
+                }
             }
+            let sum = |lanes: &Lanes| lanes.iter().map(|&x| f64::from(x)).sum::<f64>();
+            sums.add(&Self {
+                area: sum(&area),
+                mirrored_area: sum(&mirrored_area),
+                moment: DVec3::from(moment.each_ref().map(sum)),
+                upright: upright.iter().sum(),
+                mirrored: mirrored.iter().sum(),
+            });
         }
-        found
+        sums
     }
 
-    /// The least value is in the first bin, the largest in the last (all in the first where they are the same), and
-    /// bins are in the order of their values.
-    #[inline]
-    fn bin(&self, value: f32) -> usize {
-        (((value - self.low) * self.scale) as usize).min(BINS - 1)
+    fn add(&mut self, other: &Self) {
+        self.area += other.area;
+        self.mirrored_area += other.mirrored_area;
+        self.moment += other.moment;
+        self.upright += other.upright;
+        self.mirrored += other.mirrored;
+    }
+}
+
+/// Measures the triangles of a panel with the given box in the flat pattern.
+pub(super) fn measure(
+    positions: &[Vec3],
+    uvs: &[Vec2],
+    triangles: &[[u32; 3]],
+    uv_box: (Vec2, Vec2),
+) -> Figures {
+    let chunks = triangles.par_chunks(CHUNK).map(|triangles| Sums::new(positions, uvs, triangles));
+    // Added in their order, so that the result does not depend on how tasks were shared out.
+    let sums = chunks.collect::<Vec<_>>().iter().fold(Sums::default(), |mut all, sums| {
+        all.add(sums);
+        all
+    });
+    let with_uv_area = sums.upright as usize + sums.mirrored as usize;
+    Figures {
+        area: sums.area as f32,
+        flags: PanelFlags {
+            mirrored: sums.mirrored_area > 0.5 * sums.area,
+            degenerate: with_uv_area < triangles.len(),
+        },
+        folded: sums.upright > 0 && sums.mirrored > 0,
+        centre: if sums.area > 0.0 { (sums.moment / sums.area).as_vec3() } else { Vec3::ZERO },
+        uv_box,
     }
 }
 
@@ -307,107 +212,70 @@ impl Bins {
 mod tests {
     use super::*;
 
-    /// A grid of `n` x `n` squares over the unit square of the UV map, put on a surface.
-    fn grid(n: u32, surface: impl Fn(Vec2) -> Vec3) -> Figures {
-        let (mut uvs, mut triangles) = (Vec::new(), Vec::new());
-        for j in 0..=n {
-            for i in 0..=n {
-                uvs.push(Vec2::new(i as f32, j as f32) / n as f32);
-            }
-        }
-        for j in 0..n {
-            for i in 0..n {
-                let a = j * (n + 1) + i;
-                triangles.extend([[a, a + 1, a + n + 2], [a, a + n + 2, a + n + 1]]);
-            }
-        }
-        let positions: Vec<Vec3> = uvs.iter().map(|&uv| surface(uv)).collect();
-        measure(&positions, &uvs, &triangles, 0..triangles.len())
-    }
+    const NO_BOX: (Vec2, Vec2) = (Vec2::ZERO, Vec2::ZERO);
 
     #[test]
-    fn a_cylinder_is_stretched_by_the_root_of_its_ratio() {
-        // Around: 2 pi r per u; along: h per v. Mean scale sqrt(2 pi r h), so the stretch is sqrt(2 pi r / h).
-        let (radius, height) = (0.5, 0.8);
-        let figures = grid(100, |uv| {
-            let (sin, cos) = (uv.x * std::f32::consts::TAU).sin_cos();
-            Vec3::new(radius * sin, height * uv.y, radius * cos)
-        });
-        let stretch = (std::f32::consts::TAU * radius / height).sqrt();
-        for p in [figures.stretch.p5, figures.stretch.p50, figures.stretch.p95] {
-            assert!((p - stretch).abs() < 1e-3 * stretch, "{p} {stretch}");
+    fn a_pyramid_has_its_area_and_centre() {
+        // Four faces over a square of side 6 with its apex 4 above: slant height 5, faces of 15 each. Each face's
+        // centre is a third of the way up.
+        let positions = [
+            Vec3::new(3.0, 0.0, 3.0),
+            Vec3::new(3.0, 0.0, -3.0),
+            Vec3::new(-3.0, 0.0, -3.0),
+            Vec3::new(-3.0, 0.0, 3.0),
+            Vec3::new(0.0, 4.0, 0.0),
+        ]
+        .map(|p| p + Vec3::new(1.0, 2.0, 3.0));
+        let uvs = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y, Vec2::splat(0.5)];
+        let faces = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
+        let many: Vec<[u32; 3]> = faces.repeat(10_001);
+        for (triangles, count) in [(&faces[..], 1.0), (&many[..], 10_001.0)] {
+            let figures = measure(&positions, &uvs, triangles, NO_BOX);
+            assert!((figures.area / (60.0 * count) - 1.0).abs() < 1e-5, "{}", figures.area);
+            assert!((figures.centre - Vec3::new(1.0, 2.0 + 4.0 / 3.0, 3.0)).length() < 1e-4);
+            assert!(!figures.folded && figures.flags == PanelFlags::default());
         }
-        assert!((figures.shear.p50 - std::f32::consts::FRAC_PI_2).abs() < 1e-3);
-        assert!((figures.area - std::f32::consts::TAU * radius * height).abs() < 1e-2);
-        assert_eq!(figures.flags, PanelFlags::default());
-    }
-
-    #[test]
-    fn a_sheared_sheet_has_its_angle() {
-        let angle = 1.1f32;
-        let figures = grid(10, |uv| Vec3::new(uv.x + angle.cos() * uv.y, angle.sin() * uv.y, 2.0) * 3.0);
-        for p in [figures.shear.p5, figures.shear.p50, figures.shear.p95] {
-            assert!((p - angle).abs() < 1e-3, "{p}");
-        }
-        // Singular values of (1 cos; 0 sin): sqrt(1 +- cos).
-        let stretch = ((1.0 + angle.cos()) / angle.sin()).sqrt();
-        assert!((figures.stretch.p50 - stretch).abs() < 1e-3);
-        assert!((figures.area - 9.0 * angle.sin()).abs() < 1e-4);
     }
 
     #[test]
     fn mirrored_by_more_than_half_the_area_is_flagged() {
-        let folded_at = |at: f32| grid(10, move |uv| Vec3::new((uv.x - at).abs(), uv.y, 0.0));
-        // Where the surface folds back, the winding turns with it and the UV map does not: seen as area, unsigned.
-        assert!(!folded_at(0.3).flags.mirrored);
-        let mirrored = |share: f32| {
-            let uvs = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y].map(|uv| uv * Vec2::new(share, 1.0));
-            let positions = uvs.map(|uv| uv.extend(0.0));
-            let flipped = uvs.map(|uv| Vec2::new(-uv.x, uv.y));
-            let all = [positions, positions.map(|p| p + Vec3::Z)].concat();
-            measure(&all, &[uvs, flipped].concat(), &[[0, 1, 2], [4, 5, 6], [4, 6, 7]], 0..3)
+        // An upright triangle of area 1/2 and a mirrored square of side `side` beside it.
+        let flags = |side: f32| {
+            let square = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
+            let positions = [square, square.map(|p| p * side + 5.0)].concat();
+            let flipped = square.map(|uv| Vec2::new(-uv.x, uv.y));
+            let positions: Vec<Vec3> = positions.iter().map(|p| p.extend(0.0)).collect();
+            let uvs = [square, flipped].concat();
+            let figures = measure(&positions, &uvs, &[[0, 1, 2], [4, 5, 6], [4, 6, 7]], NO_BOX);
+            assert!(figures.folded && !figures.flags.degenerate);
+            figures.flags.mirrored
         };
-        assert!(mirrored(1.0).flags.mirrored);
+        assert!(flags(0.75) && !flags(0.7));
     }
 
     #[test]
     fn uvs_without_area_are_degenerate() {
-        let figures = grid(4, |uv| Vec3::new(uv.x, uv.y, 0.0));
-        assert!(!figures.flags.degenerate);
-        let line = measure(
-            &[Vec3::ZERO, Vec3::X, Vec3::Y],
-            &[Vec2::ZERO, Vec2::ONE, Vec2::ONE * 2.0],
-            &[[0, 1, 2]],
-            0..1,
-        );
-        assert!(line.flags.degenerate && line.area == 0.5 && line.stretch == Percentiles::default());
+        let positions = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        let line = measure(&positions, &[Vec2::ZERO, Vec2::ONE, Vec2::ONE * 2.0], &[[0, 1, 2]], NO_BOX);
+        assert!(line.flags.degenerate && line.area == 0.5 && !line.flags.mirrored && !line.folded);
     }
 
     #[test]
-    fn percentiles_by_weight_agree_with_sorting() {
-        let mut state = 1u32;
+    fn lanes_and_single_triangles_agree_on_uv_areas() {
+        let mut state = 7u32;
         let mut random = || {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             (state >> 8) as f32 / (1 << 24) as f32
         };
-        let percentiles = |items: &[(f32, f32)]| {
-            let (values, weights) = items.iter().copied().unzip();
-            Weighted { values, weights }.percentiles()
-        };
-        for outlier in [1.0, 1e6, 1e30] {
-            let mut items: Vec<(f32, f32)> =
-                (0..20_000).map(|_| (random().powi(3), 0.1 + random())).collect();
-            items[77].0 = outlier;
-            let found = percentiles(&items);
-            items.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let total: f64 = items.iter().map(|item| f64::from(item.1)).sum();
-            for (share, p) in [(0.05, found.p5), (0.5, found.p50), (0.95, found.p95)] {
-                let below: f64 = items.iter().filter(|item| item.0 < p).map(|item| f64::from(item.1)).sum();
-                let upto: f64 = items.iter().filter(|item| item.0 <= p).map(|item| f64::from(item.1)).sum();
-                assert!(below <= (share + 1e-5) * total && upto >= (share - 1e-5) * total, "{share} {p}");
-            }
+        for exponent in 0..40 {
+            let offset = Vec2::splat(0.3 * 2f32.powi(exponent - 20));
+            let uvs: Vec<Vec2> =
+                (0..3 * LANES).map(|_| offset + Vec2::new(random(), random()) * 0.01).collect();
+            let triangles: Vec<[u32; 3]> = (0..LANES as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+            let mut batch = Batch::new();
+            batch.fill(&vec![Vec3::ZERO; uvs.len()], &uvs, &triangles);
+            let one = |triangle: &[u32; 3]| uv_area(triangle.map(|i| uvs[i as usize]));
+            assert_eq!(batch.uv_areas().to_vec(), triangles.iter().map(one).collect::<Vec<_>>());
         }
-        assert_eq!(percentiles(&[(3.0, 1.0)]), Percentiles { p5: 3.0, p50: 3.0, p95: 3.0 });
-        assert_eq!(percentiles(&[]), Percentiles::default());
     }
 }

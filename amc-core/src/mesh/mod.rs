@@ -5,8 +5,10 @@
 //! common check makes a [`Mesh`] of it. Panels: islands of the UV map, their vertices parted, their figures measured.
 
 mod check;
+mod distortion;
 mod draft;
 mod fabric_words;
+mod fold;
 mod forest;
 pub mod gltf;
 mod identity;
@@ -18,13 +20,15 @@ mod normals;
 pub mod obj;
 mod panel;
 mod read;
+mod sections;
 mod split;
 mod triangulate;
 mod unit;
 mod weld;
 
+pub use distortion::{Distortion, Percentiles};
 pub(crate) use measure::uv_area;
-pub use panel::{Garment, Panel, PanelFlags, Percentiles};
+pub use panel::{Garment, Panel, PanelFlags};
 pub use read::{FILE_LIMIT, Resolve, read, suffixes};
 pub use unit::Unit;
 

@@ -90,7 +90,7 @@ fn check_length(what: &str, held: usize, vertices: usize) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::{Panel, PanelFlags, Percentiles};
+    use crate::mesh::{Panel, PanelFlags};
     use glam::Vec2;
 
     fn garment() -> Garment {
@@ -101,8 +101,6 @@ mod tests {
             takes_fabric: true,
             area: 0.5,
             flags: PanelFlags::default(),
-            stretch: Percentiles::default(),
-            shear: Percentiles::default(),
         };
         Garment {
             positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],

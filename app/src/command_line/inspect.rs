@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use amc_core::amc::Amc;
 use amc_core::capture::{SESSION_FILE, Session};
-use amc_core::mesh::{Garment, Panel, Unit};
+use amc_core::mesh::{Distortion, Garment, Panel, Unit};
 use amc_core::{Error, Result};
 use serde_json::{Value, json};
 
@@ -46,12 +46,13 @@ fn mesh(garment: &Garment) -> Value {
         "vertices": garment.file_vertices,
         "triangles": garment.triangles.len(),
         "has_uvs": garment.has_uvs,
-        "panels": garment.panels.iter().map(panel).collect::<Vec<_>>(),
+        "panels": garment.panels.iter().zip(garment.distortion()).map(panel).collect::<Vec<_>>(),
         "notices": garment.notices,
     })
 }
 
-fn panel(panel: &Panel) -> Value {
+fn panel((panel, distortion): (&Panel, Distortion)) -> Value {
+    let Distortion { stretch, shear } = distortion;
     json!({
         "id": panel.id,
         "name": panel.name,
@@ -60,8 +61,8 @@ fn panel(panel: &Panel) -> Value {
         "takes_fabric": panel.takes_fabric,
         "mirrored": panel.flags.mirrored,
         "degenerate": panel.flags.degenerate,
-        "stretch": { "p50": panel.stretch.p50, "p95": panel.stretch.p95 },
-        "shear": { "p5": panel.shear.p5.to_degrees(), "p95": panel.shear.p95.to_degrees() },
+        "stretch": { "p50": stretch.p50, "p95": stretch.p95 },
+        "shear": { "p5": shear.p5.to_degrees(), "p95": shear.p95.to_degrees() },
     })
 }
 

@@ -6,8 +6,12 @@ use bytemuck::Pod;
 use gltf::Accessor;
 use gltf::accessor::sparse::IndexType;
 use gltf::accessor::{DataType, Dimensions};
+use rayon::prelude::*;
 
 use crate::{Error, Result};
+
+/// Items that one task converts.
+const CHUNK: usize = 8 * 1024;
 
 /// Equally spaced items in a buffer, all of them inside it.
 struct Items<'b> {
@@ -49,14 +53,16 @@ impl<'b> Items<'b> {
     }
 }
 
-/// Vectors of `N` floats: 32-bit, or 8 and 16-bit integers, normalised where the accessor says so. Appended to `out`.
+/// Vectors of `N` floats: 32-bit, or 8 and 16-bit integers, normalised where the accessor says so. Each is appended
+/// to `out` after `convert`.
 pub(super) fn vectors<const N: usize, V>(
     accessor: &Accessor<'_>,
     buffers: &[Cow<'_, [u8]>],
     out: &mut Vec<V>,
+    convert: impl Fn(V) -> V + Sync,
 ) -> Result<()>
 where
-    V: Pod + From<[f32; N]>,
+    V: Pod + From<[f32; N]> + Send + Sync,
 {
     let wanted = match N {
         2 => Dimensions::Vec2,
@@ -65,7 +71,10 @@ where
     if accessor.dimensions() != wanted {
         return Err(Error::malformed(format!("{:?} where {wanted:?} is needed", accessor.dimensions())));
     }
-    if accessor.data_type() == DataType::F32 && append_as_it_is(accessor, buffers, out)? {
+    if accessor.data_type() == DataType::F32
+        && let Some(plain) = as_they_lie::<V>(accessor, buffers)?
+    {
+        out.par_extend(plain.par_iter().with_min_len(CHUNK).map(|&vector| convert(vector)));
         return Ok(());
     }
     let normalized = accessor.normalized();
@@ -87,18 +96,19 @@ where
         }
         (DataType::U32, _) => Err(Error::malformed("32-bit integers where floats are needed")),
     }?;
-    out.extend(vectors.into_iter().map(V::from));
+    out.extend(vectors.into_iter().map(V::from).map(convert));
     Ok(())
 }
 
 /// Indices of any width.
-pub(super) fn indices(accessor: &Accessor<'_>, buffers: &[Cow<'_, [u8]>]) -> Result<Vec<u32>> {
+pub(super) fn indices<'b>(accessor: &Accessor<'_>, buffers: &'b [Cow<'_, [u8]>]) -> Result<Cow<'b, [u32]>> {
     if accessor.dimensions() != Dimensions::Scalar {
         return Err(Error::malformed("indices that are not scalars"));
     }
-    let mut plain = Vec::new();
-    if accessor.data_type() == DataType::U32 && append_as_it_is(accessor, buffers, &mut plain)? {
-        return Ok(plain);
+    if accessor.data_type() == DataType::U32
+        && let Some(plain) = as_they_lie(accessor, buffers)?
+    {
+        return Ok(Cow::Borrowed(plain));
     }
     let vectors: Vec<[u32; 1]> = match accessor.data_type() {
         DataType::U8 => read(accessor, buffers, |[b]: [u8; 1]| u32::from(b)),
@@ -106,28 +116,22 @@ pub(super) fn indices(accessor: &Accessor<'_>, buffers: &[Cow<'_, [u8]>]) -> Res
         DataType::U32 => read(accessor, buffers, u32::from_le_bytes),
         other => Err(Error::malformed(format!("indices of type {other:?}"))),
     }?;
-    Ok(vectors.into_iter().flatten().collect())
+    Ok(Cow::Owned(vectors.into_iter().flatten().collect()))
 }
 
-/// Appends items that lie in the buffer as they do in memory; false where they do not.
-fn append_as_it_is<V: Pod>(
-    accessor: &Accessor<'_>,
-    buffers: &[Cow<'_, [u8]>],
-    out: &mut Vec<V>,
-) -> Result<bool> {
+/// The items of a buffer in which they lie as they do in memory; none where they do not.
+fn as_they_lie<'b, V: Pod>(accessor: &Accessor<'_>, buffers: &'b [Cow<'_, [u8]>]) -> Result<Option<&'b [V]>> {
     let size = size_of::<V>();
     let Some(view) = accessor.view().filter(|view| {
         cfg!(target_endian = "little")
             && accessor.sparse().is_none()
             && view.stride().is_none_or(|stride| stride == size)
     }) else {
-        return Ok(false);
+        return Ok(None);
     };
     let items = Items::new(buffers, &view, accessor.offset(), accessor.count(), size)?;
-    let first = out.len();
-    out.resize(first + accessor.count(), V::zeroed());
-    bytemuck::cast_slice_mut(&mut out[first..]).copy_from_slice(items.bytes);
-    Ok(true)
+    // Not where the file aligns them badly.
+    Ok(bytemuck::try_cast_slice(items.bytes).ok())
 }
 
 /// All items of an accessor, components of `W` bytes turned by `decode`; sparse ones in their places.

@@ -2,9 +2,12 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::{Mat3, Mat4, Vec2, Vec3};
 use gltf::mesh::Mode;
+use rayon::prelude::*;
 use serde::Deserialize;
 
 use super::accessor::{indices, vectors};
@@ -13,6 +16,9 @@ use crate::mesh::Part;
 use crate::mesh::draft::{COORDINATE_LIMIT, Draft, DraftPart, check_position, clean_name};
 use crate::mesh::fabric_words::names_no_fabric;
 use crate::{Error, Result};
+
+/// Triangles that one task numbers.
+const CHUNK: usize = 8 * 1024;
 
 /// What `extras` may say to us.
 #[derive(Deserialize, Default)]
@@ -58,15 +64,15 @@ pub(super) fn append(
     let (vertices, triangles) = (draft.positions.len(), draft.triangles.len());
     let accessor =
         primitive.get(&gltf::Semantic::Positions).ok_or_else(|| Error::malformed("no positions"))?;
-    vectors::<3, Vec3>(&accessor, buffers, &mut draft.positions).map_err(named("positions"))?;
+    append_positions(draft, &accessor, buffers, instance.to_world).map_err(named("positions"))?;
     let count = draft.positions.len() - vertices;
     let normals = primitive.get(&gltf::Semantic::Normals);
     if let Some(accessor) = &normals {
-        vectors::<3, Vec3>(accessor, buffers, &mut draft.normals).map_err(named("normals"))?;
+        append_normals(draft, accessor, buffers, instance.to_world).map_err(named("normals"))?;
     }
     let uvs = primitive.get(&gltf::Semantic::TexCoords(0));
     if let Some(accessor) = &uvs {
-        vectors::<2, Vec2>(accessor, buffers, &mut draft.uvs).map_err(named("UVs"))?;
+        append_uvs(draft, accessor, buffers).map_err(named("UVs"))?;
     }
     let fits = |given: bool, length: usize| !given || length == vertices + count;
     if !fits(normals.is_some(), draft.normals.len()) || !fits(uvs.is_some(), draft.uvs.len()) {
@@ -78,25 +84,15 @@ pub(super) fn append(
     draft.normals.resize(draft.positions.len(), Vec3::ZERO);
     draft.uvs.resize(draft.positions.len(), Vec2::ZERO);
     let corners = primitive.indices().map(|a| indices(&a, buffers)).transpose().map_err(named("indices"))?;
-    let largest = corners.iter().flatten().copied().max();
-    if let Some(largest) = largest.filter(|&largest| largest as usize >= count) {
-        return Err(Error::malformed(format!("index {largest}, of {count} vertices")));
-    }
-    place(&mut draft.positions[vertices..], &mut draft.normals[vertices..], instance.to_world);
-    check_positions(&draft.positions[vertices..])?;
-    if uvs.is_some() {
-        turn_up(&mut draft.uvs[vertices..])?;
-    }
     let part = DraftPart {
         part: describe(primitive, instance),
         has_normals: normals.is_some(),
         has_uvs: uvs.is_some(),
         ..DraftPart::default()
     };
-    append_triangles(draft, primitive.mode(), corners, vertices as u32, count as u32);
-    if instance.to_world.determinant() < 0.0 {
-        draft.triangles[triangles..].iter_mut().for_each(|triangle| triangle.swap(1, 2));
-    }
+    let corners = corners.unwrap_or_else(|| Cow::Owned((0..count as u32).collect()));
+    let mirrored = instance.to_world.determinant() < 0.0;
+    append_triangles(draft, primitive.mode(), &corners, vertices..vertices + count, mirrored)?;
     if draft.triangles.len() == triangles {
         draft.positions.truncate(vertices);
         draft.normals.truncate(vertices);
@@ -112,30 +108,23 @@ pub(super) fn append(
     Ok(true)
 }
 
-/// Takes positions and normals from the mesh's space to the world's.
-fn place(positions: &mut [Vec3], normals: &mut [Vec3], to_world: Mat4) {
-    if to_world == Mat4::IDENTITY {
-        return;
-    }
-    for position in positions {
-        *position = to_world.transform_point3(*position);
-    }
-    // The cofactors: the inverse transpose up to a factor, and defined for a flattening transform too.
-    let linear = Mat3::from_mat4(to_world);
-    let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];
-    let sign = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };
-    let turn = Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign;
-    for normal in normals {
-        let turned = turn * *normal;
-        *normal = turned.try_normalize().unwrap_or(turned);
-    }
-}
-
-fn check_positions(positions: &[Vec3]) -> Result<()> {
-    // One branch for all; a number that is none fails the comparison too.
-    let fine =
-        positions.iter().fold(true, |fine, p| fine & p.abs().cmple(Vec3::splat(COORDINATE_LIMIT)).all());
-    let faults = positions.iter().enumerate().filter(|_| !fine);
+fn append_positions(
+    draft: &mut Draft,
+    accessor: &gltf::Accessor<'_>,
+    buffers: &[Cow<'_, [u8]>],
+    to_world: Mat4,
+) -> Result<()> {
+    let (first, moved) = (draft.positions.len(), to_world != Mat4::IDENTITY);
+    let fault = AtomicBool::new(false);
+    vectors::<3, Vec3>(accessor, buffers, &mut draft.positions, |position| {
+        let position = if moved { to_world.transform_point3(position) } else { position };
+        // A number that is none fails the comparison too.
+        if !position.abs().cmple(Vec3::splat(COORDINATE_LIMIT)).all() {
+            fault.store(true, Ordering::Relaxed);
+        }
+        position
+    })?;
+    let faults = draft.positions[first..].iter().enumerate().filter(|_| fault.load(Ordering::Relaxed));
     for (at, &position) in faults {
         check_position(position)
             .map_err(|error| Error::new(error.kind(), format!("vertex {at}: {error}")))?;
@@ -143,31 +132,78 @@ fn check_positions(positions: &[Vec3]) -> Result<()> {
     Ok(())
 }
 
-/// Turns v up: in glTF it runs down.
-fn turn_up(uvs: &mut [Vec2]) -> Result<()> {
-    let mut finite = true;
-    for uv in &mut *uvs {
-        finite &= uv.is_finite();
-        uv.y = 1.0 - uv.y;
+fn append_normals(
+    draft: &mut Draft,
+    accessor: &gltf::Accessor<'_>,
+    buffers: &[Cow<'_, [u8]>],
+    to_world: Mat4,
+) -> Result<()> {
+    if to_world == Mat4::IDENTITY {
+        return vectors::<3, Vec3>(accessor, buffers, &mut draft.normals, |normal| normal);
     }
-    let fault = uvs.iter().position(|uv| !uv.is_finite()).filter(|_| !finite);
-    fault.map_or(Ok(()), |at| Err(Error::invalid(format!("UV {at} is not a finite number"))))
+    // The cofactors: the inverse transpose up to a factor, and defined for a flattening transform too.
+    let linear = Mat3::from_mat4(to_world);
+    let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];
+    let sign = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };
+    let turn = Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign;
+    vectors::<3, Vec3>(accessor, buffers, &mut draft.normals, |normal| {
+        let turned = turn * normal;
+        turned.try_normalize().unwrap_or(turned)
+    })
 }
 
-fn append_triangles(draft: &mut Draft, mode: Mode, corners: Option<Vec<u32>>, base: u32, count: u32) {
-    let corners = corners.unwrap_or_else(|| (0..count).collect());
-    let shifted = |triangle: [u32; 3]| triangle.map(|corner| base + corner);
+/// UVs with v turned up: in glTF it runs down.
+fn append_uvs(draft: &mut Draft, accessor: &gltf::Accessor<'_>, buffers: &[Cow<'_, [u8]>]) -> Result<()> {
+    let first = draft.uvs.len();
+    let fault = AtomicBool::new(false);
+    vectors::<2, Vec2>(accessor, buffers, &mut draft.uvs, |uv| {
+        if !uv.is_finite() {
+            fault.store(true, Ordering::Relaxed);
+        }
+        Vec2::new(uv.x, 1.0 - uv.y)
+    })?;
+    let found = || draft.uvs[first..].iter().position(|uv| !uv.is_finite());
+    match fault.load(Ordering::Relaxed).then(found).flatten() {
+        Some(at) => Err(Error::invalid(format!("vertex {at}: not a finite number"))),
+        None => Ok(()),
+    }
+}
+
+/// Appends triangles over the given vertices, turned where they are mirrored.
+fn append_triangles(
+    draft: &mut Draft,
+    mode: Mode,
+    corners: &[u32],
+    vertices: Range<usize>,
+    mirrored: bool,
+) -> Result<()> {
+    let (base, count) = (vertices.start as u32, vertices.len() as u32);
+    let fault = AtomicBool::new(false);
+    let placed = |[a, b, c]: [u32; 3]| {
+        if a.max(b).max(c) >= count {
+            fault.store(true, Ordering::Relaxed);
+        }
+        let [b, c] = if mirrored { [c, b] } else { [b, c] };
+        [a, b, c].map(|corner| base.wrapping_add(corner))
+    };
     match (mode, corners.split_first()) {
         (Mode::TriangleStrip, _) => {
             let strip = corners.array_windows::<3>().enumerate();
-            draft
-                .triangles
-                .extend(strip.map(|(i, &[a, b, c])| shifted(if i % 2 == 0 { [a, b, c] } else { [b, a, c] })));
+            let triangle =
+                |(i, &[a, b, c]): (usize, &[u32; 3])| if i % 2 == 0 { [a, b, c] } else { [b, a, c] };
+            draft.triangles.extend(strip.map(triangle).map(placed));
         }
         (Mode::TriangleFan, Some((&hub, rim))) => {
-            draft.triangles.extend(rim.array_windows::<2>().map(|&[a, b]| shifted([hub, a, b])));
+            draft.triangles.extend(rim.array_windows::<2>().map(|&[a, b]| placed([hub, a, b])));
         }
-        _ => draft.triangles.extend(corners.as_chunks::<3>().0.iter().map(|&triangle| shifted(triangle))),
+        _ => {
+            let triangles = corners.as_chunks::<3>().0.par_iter().with_min_len(CHUNK);
+            draft.triangles.par_extend(triangles.map(|&triangle| placed(triangle)));
+        }
+    }
+    match corners.iter().max().filter(|_| fault.load(Ordering::Relaxed)) {
+        Some(largest) => Err(Error::malformed(format!("index {largest}, of {count} vertices"))),
+        None => Ok(()),
     }
 }
 

@@ -80,6 +80,23 @@ fn a_square_is_read_with_v_up() {
 }
 
 #[test]
+fn bytes_at_any_alignment_give_the_same_mesh() {
+    let (mut json, mut bin) = square();
+    let wide: Vec<u8> = [0u32, 1, 2, 0, 2, 3].iter().flat_map(|i| i.to_le_bytes()).collect();
+    json["bufferViews"][3] = json!({"buffer": 0, "byteOffset": 140, "byteLength": 24});
+    json["accessors"][3]["componentType"] = json!(5125);
+    json["buffers"][0]["byteLength"] = json!(164);
+    bin.extend(wide);
+    let file = glb(&json, &bin);
+    for shift in 0..4 {
+        let shifted = [vec![0; shift], file.clone()].concat();
+        let mesh = parse(&shifted[shift..], &nothing_beside).unwrap();
+        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+        assert_eq!((mesh.positions[2], mesh.uvs.unwrap()[1]), (Vec3::new(2.0, 1.0, 0.0), Vec2::X));
+    }
+}
+
+#[test]
 fn nodes_place_turn_and_mirror() {
     let (mut json, bin) = square();
     let quarter = std::f32::consts::FRAC_1_SQRT_2;
@@ -205,9 +222,14 @@ fn faults_name_mesh_and_primitive() {
     in_primitive(|j| j["accessors"][2]["type"] = json!("VEC3"), "UVs: Vec3 where Vec2");
     in_primitive(|j| j["accessors"][3]["bufferView"] = json!(2), "index 16256, of 4");
     in_primitive(|j| j["nodes"][0]["translation"] = json!([1e20, 0, 0]), "vertex 0: a coordinate beyond");
-    let (json, mut bin) = square();
-    bin[12..16].copy_from_slice(&f32::NAN.to_le_bytes());
-    assert!(read(&json, &bin).unwrap_err().to_string().contains("vertex 1: a position that is not a finite"));
+    for (at, what) in
+        [(12, "vertex 1: a position that is not a finite"), (116, "UVs: vertex 2: not a finite")]
+    {
+        let (json, mut bin) = square();
+        bin[at..at + 4].copy_from_slice(&f32::NAN.to_le_bytes());
+        let message = read(&json, &bin).unwrap_err().to_string();
+        assert!(message.contains(what), "{message}");
+    }
 }
 
 #[test]
