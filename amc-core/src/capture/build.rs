@@ -17,7 +17,7 @@ use super::report::{Ball, BuildReport};
 use super::resample::{Footprints, MOST_LIGHT, Texel};
 use super::session::Turn;
 use super::symmetry::{self, Analysis, DEFAULT_THRESHOLD};
-use super::turn::{Direction, Spline, Stack, TexelCurve, reading_turn};
+use super::turn::{Direction, Spline, Stack, reading_turn};
 use crate::amc::{Amc, Frame, Symmetry, TableSize, TexelFormat, Texels};
 use crate::color::srgb8_from_linear;
 use crate::image::decode::{Raster, read_raster};
@@ -403,15 +403,13 @@ impl Slicing<'_> {
         let slices = self.size.slices() as usize;
         let share = 1.0 / self.symmetry.order() as f32;
         let mut colours = vec![[f16::ZERO; 3]; chunk.len() * slices];
-        let mut curve = TexelCurve::default();
         let mut sums = vec![[0.0f32; 3]; slices];
         let mut halves = vec![[f16::ZERO; 3]; slices];
         for (k, &texel) in chunk.iter().enumerate() {
             sums.fill([0.0; 3]);
-            curves.texel(3 * k, &mut curve);
             self.each_direction(&self.footprints.texels[texel], |slice, turn| {
-                let colour = curve.colour(&self.spline.position(turn));
-                for (sum, value) in sums[slice].iter_mut().zip(colour.to_array()) {
+                let colour = curves.colour(&self.spline.position(turn), 3 * k);
+                for (sum, value) in sums[slice].iter_mut().zip(colour) {
                     *sum += value * share;
                 }
             });

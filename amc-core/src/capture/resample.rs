@@ -22,10 +22,6 @@ const RIM: f64 = 1.4;
 /// The share of a texel's cell that must be seen for the texel to count as measured.
 const LEAST_SEEN: f64 = 0.5;
 
-/// Runs are made longer, with weights of zero, to a multiple of this many pixels: loops of one length are foretold by
-/// the processor, those of changing lengths are not.
-const EVEN: usize = 2;
-
 /// The largest half float.
 pub(super) const MOST_LIGHT: f32 = 65504.0;
 
@@ -96,24 +92,7 @@ impl Footprints {
             all.weights.extend(row.weights);
             all.texels.extend(row.texels);
         }
-        all.even(width * height);
         all
-    }
-
-    /// Makes the runs' lengths multiples of [`EVEN`], as far as the `pixels` of the picture reach.
-    fn even(&mut self, pixels: u32) {
-        let mut weights = Vec::with_capacity(self.weights.len() + self.runs.len() * (EVEN - 1));
-        for run in &mut self.runs {
-            let own = &self.weights[run.weight as usize..][..run.length as usize];
-            run.weight = weights.len() as u32;
-            weights.extend_from_slice(own);
-            let wanted = run.length.next_multiple_of(EVEN as u32);
-            if run.pixel + wanted <= pixels {
-                weights.resize(run.weight as usize + wanted as usize, 0.0);
-                run.length = wanted;
-            }
-        }
-        self.weights = weights;
     }
 
     /// The texels' red, green and blue in linear light, one after the other; NaN where the picture's coverage leaves
@@ -177,30 +156,15 @@ impl Footprints {
             for run in &self.runs[start as usize..end as usize] {
                 let part = &pixels[run.pixel as usize..][..run.length as usize];
                 let weights = &self.weights[run.weight as usize..][..run.length as usize];
-                // A sum for each run: the sums of several runs go on at once.
-                let mut sum = [0.0f32; 4];
-                let mut add = |value: &[T; C], weight: f32| {
+                for (value, &weight) in part.iter().zip(weights) {
                     let value = pixel(value);
-                    for (sum, value) in
-                        sum.iter_mut().zip(value).take(if C.is_multiple_of(2) { 4 } else { 3 })
-                    {
-                        *sum += weight * value;
-                    }
-                };
-                let (evens, odd) = part.as_chunks::<EVEN>();
-                let (even_weights, odd_weights) = weights.as_chunks::<EVEN>();
-                for (values, weights) in evens.iter().zip(even_weights) {
-                    for (value, &weight) in values.iter().zip(weights) {
-                        add(value, weight);
+                    r += weight * value[0];
+                    g += weight * value[1];
+                    b += weight * value[2];
+                    if C.is_multiple_of(2) {
+                        a += weight * value[3];
                     }
                 }
-                for (value, &weight) in odd.iter().zip(odd_weights) {
-                    add(value, weight);
-                }
-                r += sum[0];
-                g += sum[1];
-                b += sum[2];
-                a += sum[3];
             }
             start = end;
             if !C.is_multiple_of(2) {

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::resample::Texel;
-use super::turn::{Direction, Spline, Stack, TexelCurve, reading_turn};
+use super::turn::{Direction, Spline, Stack, reading_turn};
 use crate::amc::Symmetry;
 use crate::view_space::Azimuth;
 
@@ -140,15 +140,13 @@ impl Sums {
             (0..steps).map(|s| Direction::new(TAU * s as f64 / steps as f64)).collect();
         let mut sums = Self::default();
         let mut look = vec![[0.0f32; 3]; steps];
-        let mut curve = TexelCurve::default();
         for (k, &texel) in chunk.iter().enumerate() {
             if shown[k] < 1.0 {
                 continue;
             }
-            curves.texel(3 * k, &mut curve);
             for (look, direction) in look.iter_mut().zip(&directions) {
                 let turn = reading_turn(&texels[texel], Azimuth::Transported, direction);
-                *look = curve.colour(&spline.position(turn)).truncate().to_array().map(perceived);
+                *look = curves.colour(&spline.position(turn), 3 * k).map(perceived);
             }
             sums.add(&look);
         }

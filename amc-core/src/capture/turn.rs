@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use glam::{DVec3, Vec4};
+use glam::DVec3;
 use half::f16;
 use half::slice::HalfFloatSliceExt as _;
 
@@ -134,28 +134,16 @@ impl Curves {
             + position.bend[1] * self.bends[b]
     }
 
-    /// Puts the colours of the texel whose red is in `lane` side by side, to be read at many turns.
-    pub(super) fn texel(&self, lane: usize, curve: &mut TexelCurve) {
-        let rows = self.values.chunks_exact(self.lanes).zip(self.bends.chunks_exact(self.lanes));
-        let colour = |row: &[f32]| Vec4::new(row[lane], row[lane + 1], row[lane + 2], 0.0);
-        curve.knots.clear();
-        curve.knots.extend(rows.map(|(values, bends)| [colour(values), colour(bends)]));
-    }
-}
-
-/// One texel's colour over the turn: for each picture its red, green and blue, and their second derivatives.
-#[derive(Default)]
-pub(super) struct TexelCurve {
-    knots: Vec<[Vec4; 2]>,
-}
-
-impl TexelCurve {
-    /// The colour, in its first three; light is never negative.
-    pub(super) fn colour(&self, position: &Position) -> Vec4 {
-        let [first, first_bend] = self.knots[position.first];
-        let [second, second_bend] = self.knots[position.second];
-        let value = first * position.value[0] + second * position.value[1];
-        (value + first_bend * position.bend[0] + second_bend * position.bend[1]).max(Vec4::ZERO)
+    /// The colour of the texel whose red is in `lane`; light is never negative.
+    pub(super) fn colour(&self, position: &Position, lane: usize) -> [f32; 3] {
+        let row = |of: &[f32], picture: usize| -> [f32; 3] {
+            let start = picture * self.lanes + lane;
+            [of[start], of[start + 1], of[start + 2]]
+        };
+        let (v0, v1) = (row(&self.values, position.first), row(&self.values, position.second));
+        let (b0, b1) = (row(&self.bends, position.first), row(&self.bends, position.second));
+        let (v, b) = (position.value, position.bend);
+        std::array::from_fn(|c| (v[0] * v0[c] + v[1] * v1[c] + b[0] * b0[c] + b[1] * b1[c]).max(0.0))
     }
 }
 
@@ -261,9 +249,19 @@ impl Stack {
     pub(super) fn gather(&self, texels: &[usize]) -> (Vec<f32>, Vec<f32>) {
         let lanes = 3 * texels.len();
         let mut halves = Vec::with_capacity(lanes * self.pictures.len());
-        for picture in &self.pictures {
-            for &texel in texels {
-                halves.extend_from_slice(&picture[3 * texel..3 * texel + 3]);
+        match texels {
+            // Texels in a row are copied at once.
+            [first, .., last] if texels.windows(2).all(|pair| pair[0] + 1 == pair[1]) => {
+                for picture in &self.pictures {
+                    halves.extend_from_slice(&picture[3 * first..3 * last + 3]);
+                }
+            }
+            _ => {
+                for picture in &self.pictures {
+                    for &texel in texels {
+                        halves.extend_from_slice(&picture[3 * texel..3 * texel + 3]);
+                    }
+                }
             }
         }
         let mut values = vec![0.0; halves.len()];
