@@ -249,9 +249,19 @@ impl Stack {
     pub(super) fn gather(&self, texels: &[usize]) -> (Vec<f32>, Vec<f32>) {
         let lanes = 3 * texels.len();
         let mut halves = Vec::with_capacity(lanes * self.pictures.len());
-        for picture in &self.pictures {
-            for &texel in texels {
-                halves.extend_from_slice(&picture[3 * texel..3 * texel + 3]);
+        match texels {
+            // Texels in a row are copied at once.
+            [first, .., last] if texels.windows(2).all(|pair| pair[0] + 1 == pair[1]) => {
+                for picture in &self.pictures {
+                    halves.extend_from_slice(&picture[3 * first..3 * last + 3]);
+                }
+            }
+            _ => {
+                for picture in &self.pictures {
+                    for &texel in texels {
+                        halves.extend_from_slice(&picture[3 * texel..3 * texel + 3]);
+                    }
+                }
             }
         }
         let mut values = vec![0.0; halves.len()];
