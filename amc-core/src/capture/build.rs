@@ -145,6 +145,7 @@ pub fn build(source: &Path, options: &BuildOptions, progress: &Progress<'_>) -> 
         one_look: analysis.isotropic && options.symmetry.is_none(),
         footprints: &footprints,
         spline: &spline,
+        half_turns: if symmetry.order().is_multiple_of(2) { spline.of_half_turns() } else { None },
         progress,
     };
     let (texels, coverage) = slicing.table(&stack, options.format)?;
@@ -349,6 +350,9 @@ struct Slicing<'a> {
     one_look: bool,
     footprints: &'a Footprints,
     spline: &'a Spline,
+    /// Through the mean of each picture and the one half a turn on, where all directions come in such pairs: half
+    /// the work, and the same curve.
+    half_turns: Option<Spline>,
     progress: &'a Progress<'a>,
 }
 
@@ -398,17 +402,26 @@ impl Slicing<'_> {
     }
 
     fn block(&self, stack: &Stack, chunk: &[usize]) -> Block {
-        let (values, shown) = stack.gather(chunk);
-        let curves = self.spline.curves(3 * chunk.len(), values);
+        let lanes = 3 * chunk.len();
+        let (mut values, shown) = stack.gather(chunk);
+        let spline = match &self.half_turns {
+            Some(half_turns) => {
+                fold(&mut values);
+                half_turns
+            }
+            None => self.spline,
+        };
+        let curves = spline.curves(lanes, values);
         let slices = self.size.slices() as usize;
-        let share = 1.0 / self.symmetry.order() as f32;
+        let copies = if self.half_turns.is_some() { 2 } else { 1 };
+        let share = copies as f32 / self.symmetry.order() as f32;
         let mut colours = vec![[f16::ZERO; 3]; chunk.len() * slices];
         let mut sums = vec![[0.0f32; 3]; slices];
         let mut halves = vec![[f16::ZERO; 3]; slices];
         for (k, &texel) in chunk.iter().enumerate() {
             sums.fill([0.0; 3]);
             self.each_direction(&self.footprints.texels[texel], |slice, turn| {
-                let colour = curves.colour(&self.spline.position(turn), 3 * k);
+                let colour = curves.colour(&spline.position(turn), 3 * k);
                 for (sum, value) in sums[slice].iter_mut().zip(colour) {
                     *sum += value * share;
                 }
@@ -429,7 +442,8 @@ impl Slicing<'_> {
         Block { colours, shown }
     }
 
-    /// Calls `read` with each slice and each of the R turns at which the pictures show it.
+    /// Calls `read` with each slice and each of the turns at which the curves show it: R of them, or, of half turns, R/2
+    /// at twice the turn.
     fn each_direction(&self, texel: &Texel, mut read: impl FnMut(usize, f64)) {
         let slices = self.size.slices() as usize;
         let all = self.directions.len();
@@ -437,6 +451,10 @@ impl Slicing<'_> {
         let (reckoned, copies) = if all.is_multiple_of(2) { (all / 2, 2) } else { (all, 1) };
         for (k, direction) in self.directions[..reckoned].iter().enumerate() {
             let turn = reading_turn(texel, self.azimuth, direction);
+            if self.half_turns.is_some() {
+                read(k % slices, 2.0 * turn);
+                continue;
+            }
             for copy in 0..copies {
                 read((k + copy * reckoned) % slices, turn + std::f64::consts::PI * copy as f64);
             }
@@ -476,6 +494,16 @@ impl Slicing<'_> {
         });
         texels
     }
+}
+
+/// Leaves the mean of the first half of the pictures' values and the second.
+fn fold(values: &mut Vec<f32>) {
+    let half = values.len() / 2;
+    let (first, second) = values.split_at_mut(half);
+    for (value, other) in first.iter_mut().zip(second) {
+        *value = (*value + *other) / 2.0;
+    }
+    values.truncate(half);
 }
 
 /// Texels whose centre lies on the disc.

@@ -73,6 +73,18 @@ impl Spline {
         self.gaps.iter().all(|gap| (gap - 1.0).abs() < 0.01)
     }
 
+    /// The spline, over twice the turn, through the means of pictures half a turn apart; none where the pictures do not
+    /// come in such pairs, at even steps.
+    pub(super) fn of_half_turns(&self) -> Option<Self> {
+        let count = self.len();
+        // What steps of 1/1000000 of the mean one are off by, no picture shows.
+        let even = self.gaps.iter().all(|gap| (gap - 1.0).abs() < 1e-6);
+        // A spline needs three.
+        (even && count.is_multiple_of(2) && count >= 6).then(|| {
+            Self::new(self.turns[..count / 2].iter().map(|turn| 2.0 * (turn + self.start)).collect())
+        })
+    }
+
     /// Where a turn in radians lies.
     pub(super) fn position(&self, turn: f64) -> Position {
         let mut turn = turn - self.start;
