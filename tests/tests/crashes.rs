@@ -1,5 +1,7 @@
 //! Every input that a fuzzer once broke a reader with, again.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use std::path::Path;
 
 use studio_tests::fuzz_targets::TARGETS;
