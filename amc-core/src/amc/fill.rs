@@ -229,17 +229,7 @@ fn n_z(xy: DVec2) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::amc::Symmetry;
-    use crate::view_space::Azimuth;
-
-    fn table(side: u32, slices: u32, texel: impl Fn(u32, u32, u32) -> [f32; 4]) -> LinearTable {
-        let size = TableSize::new(side, slices).unwrap();
-        let texels = (0..slices)
-            .flat_map(|s| (0..side).flat_map(move |j| (0..side).map(move |i| (i, j, s))))
-            .map(|(i, j, s)| texel(i, j, s))
-            .collect();
-        LinearTable { size, texels, symmetry: Symmetry::One, azimuth: Azimuth::Transported }
-    }
+    use crate::amc::tests::table;
 
     #[test]
     fn no_background_is_left_after_filling() {

@@ -127,17 +127,7 @@ fn plane_shares(from: TableSize, to: TableSize) -> Vec<Shares> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::amc::Symmetry;
-    use crate::view_space::Azimuth;
-
-    fn table(side: u32, slices: u32, texel: impl Fn(u32, u32, u32) -> [f32; 4]) -> LinearTable {
-        let size = TableSize::new(side, slices).unwrap();
-        let texels = (0..slices)
-            .flat_map(|s| (0..side).flat_map(move |j| (0..side).map(move |i| (i, j, s))))
-            .map(|(i, j, s)| texel(i, j, s))
-            .collect();
-        LinearTable { size, texels, symmetry: Symmetry::Two, azimuth: Azimuth::Transported }
-    }
+    use crate::amc::tests::table;
 
     #[test]
     fn a_plain_table_stays_plain_at_any_size() {

@@ -9,6 +9,16 @@ use crate::color::srgb_from_linear;
 use crate::reflectance::{Description, parse};
 use crate::view_space::Azimuth;
 
+/// A table whose texel at column, row and slice is what `texel` says.
+pub(super) fn table(side: u32, slices: u32, texel: impl Fn(u32, u32, u32) -> [f32; 4]) -> LinearTable {
+    let size = TableSize::new(side, slices).unwrap();
+    let texels = (0..slices)
+        .flat_map(|s| (0..side).flat_map(move |j| (0..side).map(move |i| (i, j, s))))
+        .map(|(i, j, s)| texel(i, j, s))
+        .collect();
+    LinearTable { size, texels, symmetry: Symmetry::One, azimuth: Azimuth::Transported }
+}
+
 /// A cloth of crossed fibres; `weft` is the strength of one set, 1 for the other. Wide highlights, so that a table of
 /// modest size holds them.
 fn cloth(weft: f32) -> Description {
