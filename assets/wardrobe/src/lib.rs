@@ -1,0 +1,10 @@
+//! Makes the garments that AMC Studio ships: pattern pieces described as data, cut flat, sewn and draped round a body.
+//!
+//! A development tool; nothing of it is linked into the studio. Data flows one way: [`pattern`] (outlines, grain, seams,
+//! as read from JSON and checked) -> [`cut`] (pieces triangulated flat, seams as pairs of vertices) -> [`drape`]
+//! (placed round a [`body`], seams closed, left to fall until still) -> garment files, figures and pictures.
+
+pub mod body;
+pub mod cut;
+pub mod drape;
+pub mod pattern;
