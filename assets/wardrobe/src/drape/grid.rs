@@ -40,9 +40,16 @@ impl CellGrid {
         self.in_cell((place / self.cell).floor().as_ivec3())
     }
 
-    /// The boxes in the cells that a box touches; one may come several times.
-    pub(super) fn within(&self, low: DVec3, high: DVec3) -> impl Iterator<Item = u32> {
-        cells(low, high, self.cell).flat_map(|place| self.in_cell(place))
+    /// The pairs of overlapping boxes of which `index` is the first, each once. `boxes` as they were entered.
+    pub(super) fn overlapping(&self, index: u32, boxes: &[(DVec3, DVec3)]) -> impl Iterator<Item = u32> {
+        let (low, high) = boxes[index as usize];
+        let first_of_both = move |place: IVec3, other: u32| {
+            let (other_low, other_high) = boxes[other as usize];
+            let overlap = low.cmple(other_high).all() && high.cmpge(other_low).all();
+            overlap && (low.max(other_low) / self.cell).floor().as_ivec3() == place
+        };
+        cells(low, high, self.cell)
+            .flat_map(move |place| self.in_cell(place).filter(move |other| *other > index && first_of_both(place, *other)))
     }
 
     fn in_cell(&self, place: IVec3) -> impl Iterator<Item = u32> {

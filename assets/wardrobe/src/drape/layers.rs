@@ -3,6 +3,8 @@
 //! Pairs of a particle and a triangle, and of two edges, that are near each other are found once in a while, with the
 //! side on which they lie; until the next time they are kept apart on that side (Bridson, Fedkiw and Anderson 2002, sections 6 and 7).
 
+use std::collections::HashSet;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -22,13 +24,32 @@ enum Pair {
 /// What never changes while the sewing stays as it is.
 #[derive(Debug)]
 pub(super) struct Layers {
-    edges: Vec<[u32; 2]>,
+    triangles: Vec<Owner>,
     /// Per particle, what it is once all seams are sewn.
     sewn: Vec<u32>,
-    /// Per sewn particle, those it shares a triangle with, sorted.
+    /// Per sewn particle, itself and those it shares a triangle with, sorted.
     neighbours: Vec<Vec<u32>>,
     thickness: f64,
     pairs: Vec<Pair>,
+}
+
+/// A triangle, and which of its corners and edges are looked at with it: each is with one triangle only.
+#[derive(Debug, Clone, Copy)]
+struct Owner {
+    corners: [u32; 3],
+    owns_corner: [bool; 3],
+    /// Edge i goes from corner i to the next.
+    owns_edge: [bool; 3],
+}
+
+impl Owner {
+    fn own_corners(&self) -> impl Iterator<Item = u32> {
+        self.corners.into_iter().zip(self.owns_corner).filter(|(_, own)| *own).map(|(corner, _)| corner)
+    }
+
+    fn own_edges(&self) -> impl Iterator<Item = [u32; 2]> {
+        (0..3).filter(|i| self.owns_edge[*i]).map(|i| [self.corners[i], self.corners[(i + 1) % 3]])
+    }
 }
 
 /// Side of a cell of the search, at least, in mean edges.
@@ -38,65 +59,68 @@ impl Layers {
     /// `sewn`: per particle, what it is once all seams are sewn: seams that are about to close do not repel each other.
     /// `thickness`: how far apart layers are kept, metres.
     pub(super) fn new(model: &Model, sewn: Vec<u32>, thickness: f64) -> Self {
-        let mut edges: Vec<[u32; 2]> = Vec::new();
+        let mut seen_corners = vec![false; sewn.len()];
+        let mut seen_edges = HashSet::new();
         let mut neighbours = vec![Vec::new(); sewn.iter().max().map_or(0, |most| *most as usize + 1)];
-        for [a, b, c] in &model.triangles {
-            for (from, to) in [(a, b), (b, c), (c, a)] {
-                edges.push([*from.min(to), *from.max(to)]);
-                let (from, to) = (sewn[*from as usize], sewn[*to as usize]);
+        let mut own = |corners: &[u32; 3]| {
+            let mut owner = Owner { corners: *corners, owns_corner: [false; 3], owns_edge: [false; 3] };
+            for i in 0..3 {
+                let (from, to) = (corners[i], corners[(i + 1) % 3]);
+                owner.owns_corner[i] = !std::mem::replace(&mut seen_corners[from as usize], true);
+                owner.owns_edge[i] = seen_edges.insert([from.min(to), from.max(to)]);
+                let (from, to) = (sewn[from as usize], sewn[to as usize]);
                 neighbours[from as usize].extend([to, from]);
                 neighbours[to as usize].push(from);
             }
-        }
-        edges.sort_unstable();
-        edges.dedup();
+            owner
+        };
+        let triangles = model.triangles.iter().map(&mut own).collect();
         for list in &mut neighbours {
             list.sort_unstable();
             list.dedup();
         }
-        Self { edges, sewn, neighbours, thickness, pairs: Vec::new() }
+        Self { triangles, sewn, neighbours, thickness, pairs: Vec::new() }
     }
 
     /// Finds all pairs that are within the thickness and `reach`, metres.
     pub(super) fn search(&mut self, model: &Model, places: &[DVec3], reach: f64) {
         let range = self.thickness + reach;
         let cell = (CELL_PER_EDGE * model.edge_length).max(2.0 * range);
-        let mut pairs = self.faces(model, places, range, cell);
-        pairs.extend(self.crossings(places, range, cell));
-        self.pairs = pairs;
+        let grow = DVec3::splat(0.5 * range);
+        let bounds = |triangle: &Owner| {
+            let [a, b, c] = triangle.corners.map(|corner| places[corner as usize]);
+            (a.min(b).min(c) - grow, a.max(b).max(c) + grow)
+        };
+        let boxes: Vec<_> = self.triangles.iter().map(bounds).collect();
+        let grid = CellGrid::new(&boxes, cell);
+        let this = &*self;
+        let of_triangle = |index: usize| {
+            let mut pairs = Vec::new();
+            for other in grid.overlapping(index as u32, &boxes) {
+                this.add_pairs(&this.triangles[index], &this.triangles[other as usize], places, range, &mut pairs);
+            }
+            pairs
+        };
+        self.pairs = (0..self.triangles.len()).into_par_iter().with_min_len(256).flat_map_iter(of_triangle).collect();
     }
 
-    fn faces(&self, model: &Model, places: &[DVec3], range: f64, cell: f64) -> Vec<Pair> {
-        let grow = DVec3::splat(range);
-        let boxes: Vec<_> = model
-            .triangles
-            .iter()
-            .map(|corners| {
-                let [a, b, c] = corners.map(|corner| places[corner as usize]);
-                (a.min(b).min(c) - grow, a.max(b).max(c) + grow)
-            })
-            .collect();
-        let grid = CellGrid::new(&boxes, cell);
-        let of_particle = |particle: usize| {
-            let (place, grid, boxes) = (places[particle], &grid, &boxes);
-            let near = grid.at(place).filter(move |index| {
-                let (low, high) = boxes[*index as usize];
-                place.cmpge(low).all() && place.cmple(high).all()
-            });
-            near.filter_map(move |index| self.face(particle as u32, model.triangles[index as usize], places, range))
-        };
-        let chunks = (0..places.len()).into_par_iter().with_min_len(256);
-        chunks.flat_map_iter(of_particle).collect()
+    fn add_pairs(&self, one: &Owner, other: &Owner, places: &[DVec3], range: f64, pairs: &mut Vec<Pair>) {
+        if one.corners.iter().any(|corner| other.corners.contains(corner)) {
+            return;
+        }
+        for (from, to) in [(one, other), (other, one)] {
+            pairs.extend(from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range)));
+        }
+        for first in one.own_edges() {
+            pairs.extend(other.own_edges().filter_map(|second| self.crossing(first, second, places, range)));
+        }
     }
 
     fn face(&self, particle: u32, corners: [u32; 3], places: &[DVec3], range: f64) -> Option<Pair> {
-        if self.adjoin(particle, &corners) {
-            return None;
-        }
         let [a, b, c] = corners.map(|corner| places[corner as usize]);
         let normal = (b - a).cross(c - a).try_normalize()?;
         let height = (places[particle as usize] - a).dot(normal);
-        if height.abs() > range {
+        if height.abs() > range || self.adjoin(particle, &corners) {
             return None;
         }
         let side = if height < 0.0 { -1.0 } else { 1.0 };
@@ -106,44 +130,15 @@ impl Layers {
     /// Whether a particle is, or shares a triangle with, one of those.
     fn adjoin(&self, particle: u32, others: &[u32]) -> bool {
         let near = &self.neighbours[self.sewn[particle as usize] as usize];
-        others.iter().any(|other| near.binary_search(&self.sewn[*other as usize]).is_ok())
-    }
-
-    fn crossings(&self, places: &[DVec3], range: f64, cell: f64) -> Vec<Pair> {
-        let grow = DVec3::splat(0.5 * range);
-        let boxes: Vec<_> = self
-            .edges
-            .iter()
-            .map(|edge| {
-                let [a, b] = edge.map(|end| places[end as usize]);
-                (a.min(b) - grow, a.max(b) + grow)
-            })
-            .collect();
-        let grid = CellGrid::new(&boxes, cell);
-        let of_edge = |index: usize| {
-            let (low, high) = boxes[index];
-            let overlaps = |other: &u32| {
-                let (other_low, other_high) = boxes[*other as usize];
-                *other as usize > index && low.cmple(other_high).all() && high.cmpge(other_low).all()
-            };
-            let mut near: Vec<u32> = grid.within(low, high).filter(overlaps).collect();
-            near.sort_unstable();
-            near.dedup();
-            near.into_iter().filter_map(move |other| self.crossing(self.edges[index], self.edges[other as usize], places, range))
-        };
-        let chunks = (0..self.edges.len()).into_par_iter().with_min_len(256);
-        chunks.flat_map_iter(of_edge).collect()
+        others.iter().any(|other| near.contains(&self.sewn[*other as usize]))
     }
 
     fn crossing(&self, first: [u32; 2], second: [u32; 2], places: &[DVec3], range: f64) -> Option<Pair> {
-        if self.adjoin(first[0], &second) || self.adjoin(first[1], &second) {
-            return None;
-        }
         let [a, b] = first.map(|end| places[end as usize]);
         let [c, d] = second.map(|end| places[end as usize]);
         let (s, t) = nearest_on_edges(a, b, c, d)?;
         let between = a.lerp(b, s) - c.lerp(d, t);
-        if between.length_squared() > range * range {
+        if between.length_squared() > range * range || self.adjoin(first[0], &second) || self.adjoin(first[1], &second) {
             return None;
         }
         let direction = between.try_normalize()?;

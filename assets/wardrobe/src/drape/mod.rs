@@ -43,6 +43,11 @@ pub fn drape(levels: &[CutGarment], body: &Body, options: &Options, progress: &P
         return Err(Error::invalid("there is no garment to drape"));
     };
     levels.iter().try_for_each(check)?;
+    // Inside the pool each parallel step is a steal, outside it would be a wake-up.
+    rayon::scope(|_| drape_levels(coarsest, finer, body, options, progress))
+}
+
+fn drape_levels(coarsest: &CutGarment, finer: &[CutGarment], body: &Body, options: &Options, progress: &Progress<'_>) -> Result<(Draped, Rest)> {
     let (mut draped, mut rest) = phases::sew_and_drape(coarsest, body, options, progress)?;
     let mut before = coarsest;
     for finer in finer {

@@ -13,8 +13,9 @@ use crate::body::Body;
 
 /// Particles that a thread takes at a time.
 const CHUNK: usize = 1024;
-/// Contacts are looked for anew once a particle has moved so far, metres.
-const FREE_PATH: f64 = 0.002;
+/// Contacts are looked for anew once a particle has moved so far, in mean edges, and at most so many metres.
+const FREE_PATH: f64 = 0.25;
+const MOST_FREE_PATH: f64 = 0.004;
 /// No particle is faster, metres per second.
 const MOST_SPEED: f64 = 2.0;
 
@@ -73,6 +74,7 @@ pub(super) struct Solver<'a> {
     pub(super) points: Points,
     velocities: Vec<DVec3>,
     before: Vec<DVec3>,
+    free_path: f64,
     /// Places at the last search for contacts.
     searched: Vec<DVec3>,
     planes: Vec<Option<Plane>>,
@@ -92,6 +94,7 @@ impl<'a> Solver<'a> {
             points: Points::new(places),
             velocities: vec![DVec3::ZERO; places.len()],
             before: places.to_vec(),
+            free_path: (FREE_PATH * model.edge_length).min(MOST_FREE_PATH),
             searched: Vec::new(),
             planes: Vec::new(),
             layers,
@@ -134,7 +137,7 @@ impl<'a> Solver<'a> {
     }
 
     fn wandered(&self) -> bool {
-        let far = FREE_PATH * FREE_PATH;
+        let far = self.free_path * self.free_path;
         let moved = |(particle, searched): (usize, &DVec3)| self.points.get(particle as u32).distance_squared(*searched) > far;
         self.searched.par_iter().enumerate().with_min_len(CHUNK).any(moved)
     }
@@ -142,13 +145,13 @@ impl<'a> Solver<'a> {
     /// Finds what each particle may touch until it has moved by the free path.
     fn search(&mut self) {
         self.searched = self.points.to_vec();
-        let (body, margin) = (self.body, self.margin);
+        let (body, margin, reach) = (self.body, self.margin, self.margin + 1.5 * self.free_path);
         let plane = |place: &DVec3| {
             let (distance, normal) = body.surface(*place);
-            (distance < margin + 1.5 * FREE_PATH).then(|| Plane { normal, offset: normal.dot(*place) - distance + margin })
+            (distance < reach).then(|| Plane { normal, offset: normal.dot(*place) - distance + margin })
         };
         self.planes = self.searched.par_iter().with_min_len(CHUNK).map(plane).collect();
-        self.layers.search(self.model, &self.searched, 2.0 * FREE_PATH);
+        self.layers.search(self.model, &self.searched, 2.0 * self.free_path);
     }
 
     /// Keeps particles off the body, with friction, and takes the velocities from the way made.
@@ -181,11 +184,6 @@ impl<'a> Solver<'a> {
         let bending: f64 = model.hinges.all().iter().map(|hinge| hinge.energy(&self.points)).sum();
         let height = model.mass.iter().enumerate().map(|(i, mass)| mass * gravity * self.points.get(i as u32).y).sum();
         Energy { kinetic, elastic: stretch + bending, height }
-    }
-
-    /// Stops everything.
-    pub(super) fn halt(&mut self) {
-        self.velocities.fill(DVec3::ZERO);
     }
 }
 
