@@ -133,6 +133,7 @@ fn sew(garment: &CutGarment, placed: &[Vec<DVec3>], body: &Body, options: &Optio
             progress.step("sewing", substep, substeps)?;
         }
     }
+    check(&solver)?;
     for ((name, ..), thread) in pairs.iter().zip(&full) {
         let gap = solver.points.get(thread.ends[0]).distance(solver.points.get(thread.ends[1]));
         if !(gap <= CLOSED) {
@@ -168,11 +169,12 @@ fn settle_and_drape(
     run(&mut solver, options.falling, options, &mut rest, fall, ("falling", progress))?;
     let quiet = |_| Conditions { gravity, drag: QUIETING_DRAG, softness: 1.0 };
     run(&mut solver, options.quieting, options, &mut rest, quiet, ("coming to rest", progress))?;
-    let places = solver.points.to_vec();
-    if !places.iter().all(|place| place.is_finite()) {
-        return Err(Error::invalid("the cloth blew up: its stiffness or its triangles are out of range"));
-    }
-    Ok((Draped { positions: model.scatter(&places) }, rest))
+    Ok((Draped { positions: model.scatter(&solver.points.to_vec()) }, rest))
+}
+
+fn check(solver: &Solver<'_>) -> Result<()> {
+    let what = "the cloth flew apart or fell off the body: look at its placement, its size and its stiffness";
+    if solver.blown_up { Err(Error::invalid(what)) } else { Ok(()) }
 }
 
 /// Runs a phase for `seconds`, or until the cloth is still.
@@ -191,6 +193,7 @@ fn run(
         rest.substeps += 1;
         if (substep + 1) % frame == 0 || substep + 1 == substeps {
             progress.step(stage, substep + 1, substeps)?;
+            check(solver)?;
             rest.fastest = solver.fastest();
             rest.energies.push(solver.energy(options.gravity));
             if rest.fastest <= options.rest_speed && substep > 4 * frame {

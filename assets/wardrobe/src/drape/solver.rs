@@ -18,6 +18,8 @@ const FREE_PATH: f64 = 0.25;
 const MOST_FREE_PATH: f64 = 0.004;
 /// No particle is faster, metres per second.
 const MOST_SPEED: f64 = 2.0;
+/// A particle farther from the origin has been thrown out by a fault, metres.
+const FARTHEST: f64 = 50.0;
 
 /// How the world acts in a phase.
 #[derive(Debug, Clone, Copy)]
@@ -82,6 +84,8 @@ pub(super) struct Solver<'a> {
     pub(super) threads: Vec<Thread>,
     /// Seconds per substep.
     pub(super) step: f64,
+    /// Places are no longer numbers that mean something.
+    pub(super) blown_up: bool,
 }
 
 impl<'a> Solver<'a> {
@@ -100,6 +104,7 @@ impl<'a> Solver<'a> {
             layers,
             threads: Vec::new(),
             step,
+            blown_up: false,
         };
         solver.search();
         solver
@@ -107,6 +112,9 @@ impl<'a> Solver<'a> {
 
     /// One substep.
     pub(super) fn advance(&mut self, conditions: Conditions) {
+        if self.blown_up {
+            return;
+        }
         self.predict(conditions);
         if self.wandered() {
             self.search();
@@ -138,13 +146,17 @@ impl<'a> Solver<'a> {
 
     fn wandered(&self) -> bool {
         let far = self.free_path * self.free_path;
-        let moved = |(particle, searched): (usize, &DVec3)| self.points.get(particle as u32).distance_squared(*searched) > far;
+        let moved = |(particle, searched): (usize, &DVec3)| !(self.points.get(particle as u32).distance_squared(*searched) <= far);
         self.searched.par_iter().enumerate().with_min_len(CHUNK).any(moved)
     }
 
     /// Finds what each particle may touch until it has moved by the free path.
     fn search(&mut self) {
         self.searched = self.points.to_vec();
+        self.blown_up |= !self.searched.iter().all(|place| place.abs().max_element() < FARTHEST);
+        if self.blown_up {
+            return;
+        }
         let (body, margin, reach) = (self.body, self.margin, self.margin + 1.5 * self.free_path);
         let plane = |place: &DVec3| {
             let (distance, normal) = body.surface(*place);
