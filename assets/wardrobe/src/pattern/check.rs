@@ -262,6 +262,7 @@ fn placement(placement: &Placement, figure: Figure) -> Result<()> {
             }
             (vec![point[0], point[1], *along], Vec::new())
         }
+        Placement::Hung(hang) => return hang.check(),
         Placement::Flat { point, at, across, up } => {
             let crossed = glam::DVec3::from(*across).cross(glam::DVec3::from(*up)).length();
             (point.iter().chain(at).copied().collect(), vec![crossed])

@@ -63,6 +63,7 @@ pub(super) fn placement(placement: &Placement) -> Placement {
             across: [across[0], -across[1], -across[2]],
             up: [-up[0], up[1], up[2]],
         },
+        Placement::Hung(hang) => Placement::Hung(hang.mirrored()),
     }
 }
 
@@ -89,7 +90,7 @@ mod tests {
         assert!(placed(&image, [-0.4, 0.7]).distance(seen) < 1e-12);
         let right_side = |placement: &Placement| match placement {
             Placement::Flat { across, up, .. } => DVec3::from(*across).cross(DVec3::from(*up)),
-            Placement::Around { .. } => DVec3::ZERO,
+            _ => DVec3::ZERO,
         };
         let seen = right_side(&own) * DVec3::new(-1.0, 1.0, 1.0);
         assert!(right_side(&image).distance(seen) < 1e-12);

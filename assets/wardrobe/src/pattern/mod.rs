@@ -8,6 +8,7 @@ mod check;
 mod cloth;
 pub(crate) mod crossing;
 mod data;
+mod hang;
 mod line;
 mod mirror;
 mod path;
@@ -23,6 +24,7 @@ pub use data::{
     Edge, Fold, FoldPlace, InnerLine, LinePart, Notch, Pattern, Piece, Points, Seam, SeamKind, SeamPart,
     Segment,
 };
+pub use hang::{Hang, Station};
 pub use line::{Line, LineKind};
 pub use placement::Placement;
 pub use unfold::{SidePart, Unfolded, WholeFold, WholeNotch, WholePiece, WholeSeam};

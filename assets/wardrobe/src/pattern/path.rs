@@ -128,7 +128,7 @@ mod tests {
         // By symmetry the curve's middle is its farthest point from the chord: u = 3/4 * 0.3.
         let farthest = path.points.iter().map(|p| p.x).fold(0.0, f64::max);
         assert!((farthest - 0.225).abs() < TOLERANCE);
-        assert!(path.points.len() < 80);
+        assert!(path.points.len() < 150);
     }
 
     #[test]

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Hang;
+
 /// Where a piece lies before it is sewn. The right side faces away from the limb.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
@@ -36,4 +38,6 @@ pub enum Placement {
         /// Where +v goes: made perpendicular and unit. The right side faces `across x up`.
         up: [f64; 3],
     },
+    /// Hung along a line in space, perhaps gathered: a scarf.
+    Hung(Hang),
 }
