@@ -5,6 +5,7 @@ mod colour;
 mod grid;
 mod hinge;
 mod layers;
+mod levels;
 mod membrane;
 mod model;
 mod phases;
@@ -20,6 +21,7 @@ use glam::DVec3;
 use crate::body::Body;
 use crate::cut::CutGarment;
 
+pub use levels::{edge_length_for, levels};
 pub use phases::{Options, Rest};
 pub use solver::Energy;
 

@@ -31,6 +31,7 @@ fn place_piece(piece: &CutPiece, body: &Body) -> Result<Vec<DVec3>> {
             let wrap = Wrap { limb, along: *along, angle: angle_deg.to_radians(), radius: *radius, flare: *flare };
             Ok(piece.flat.iter().map(|flat| wrap.place(*flat - DVec2::from(*point))).collect())
         }
+        Placement::Hung(hang) => Ok(piece.flat.iter().map(|flat| hang.place(flat.x, flat.y)).collect()),
         Placement::Flat { point, at, across, up } => {
             let across = DVec3::from(*across).normalize_or(DVec3::X);
             let up = DVec3::from(*up).reject_from(across).normalize_or(across.any_orthonormal_vector());
