@@ -73,9 +73,10 @@ impl Rest {
 const CLOSED: f64 = 0.004;
 /// Between two looks at energies and speeds, seconds.
 const FRAME: f64 = 1.0 / 60.0;
-/// Drag of the air while sewing, falling and quieting, 1/seconds.
+/// Drag of the air while sewing, falling, relaxing on a finer level and quieting, 1/seconds.
 const SEWING_DRAG: f64 = 10.0;
 const FALLING_DRAG: f64 = 2.5;
+const RELAXING_DRAG: f64 = 6.0;
 const QUIETING_DRAG: f64 = 25.0;
 /// How much stretchier the cloth is while it is sewn.
 const SEWING_SOFTNESS: f64 = 20.0;
@@ -171,7 +172,8 @@ fn settle_and_drape(
     }
     let [falling, quieting] = if coarsest { [options.falling, options.quieting] } else { options.relaxing.map(|time| time * model.edge_length) };
     let almost_still = Options { rest_speed: 4.0 * options.rest_speed, ..options.clone() };
-    let fall = |_| Conditions { gravity, drag: FALLING_DRAG, softness: 1.0 };
+    let drag = if coarsest { FALLING_DRAG } else { RELAXING_DRAG };
+    let fall = |_| Conditions { gravity, drag, softness: 1.0 };
     run(&mut solver, falling, &almost_still, &mut rest, fall, ("falling", progress))?;
     let quiet = |_| Conditions { gravity, drag: QUIETING_DRAG, softness: 1.0 };
     run(&mut solver, quieting, options, &mut rest, quiet, ("coming to rest", progress))?;

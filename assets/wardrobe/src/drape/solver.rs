@@ -136,10 +136,14 @@ impl<'a> Solver<'a> {
     fn predict(&mut self, conditions: Conditions) {
         let step = self.step;
         let kept = (-conditions.drag * step).exp();
-        let points = &self.points;
+        let (points, inverse_mass) = (&self.points, &self.model.inverse_mass);
         let chunks = self.velocities.par_chunks_mut(CHUNK).zip(self.before.par_chunks_mut(CHUNK)).enumerate();
         chunks.for_each(|(chunk, (velocities, before))| {
             for ((velocity, before), particle) in velocities.iter_mut().zip(before).zip((chunk * CHUNK) as u32..) {
+                if inverse_mass[particle as usize] == 0.0 {
+                    *velocity = DVec3::ZERO;
+                    continue;
+                }
                 *velocity = ((*velocity - DVec3::Y * (conditions.gravity * step)) * kept).clamp_length_max(MOST_SPEED);
                 *before = points.get(particle);
                 points.set(particle, *before + *velocity * step);
