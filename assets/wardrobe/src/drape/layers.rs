@@ -118,9 +118,9 @@ impl Layers {
 
     fn face(&self, particle: u32, corners: [u32; 3], places: &[DVec3], range: f64) -> Option<Pair> {
         let [a, b, c] = corners.map(|corner| places[corner as usize]);
-        let normal = (b - a).cross(c - a).try_normalize()?;
+        let normal = (b - a).cross(c - a);
         let height = (places[particle as usize] - a).dot(normal);
-        if height.abs() > range || self.adjoin(particle, &corners) {
+        if height * height > range * range * normal.length_squared() || self.adjoin(particle, &corners) {
             return None;
         }
         let side = if height < 0.0 { -1.0 } else { 1.0 };
@@ -136,6 +136,9 @@ impl Layers {
     fn crossing(&self, first: [u32; 2], second: [u32; 2], places: &[DVec3], range: f64) -> Option<Pair> {
         let [a, b] = first.map(|end| places[end as usize]);
         let [c, d] = second.map(|end| places[end as usize]);
+        if (a.min(b) - DVec3::splat(range)).cmpgt(c.max(d)).any() || (a.max(b) + DVec3::splat(range)).cmplt(c.min(d)).any() {
+            return None;
+        }
         let (s, t) = nearest_on_edges(a, b, c, d)?;
         let between = a.lerp(b, s) - c.lerp(d, t);
         if between.length_squared() > range * range || self.adjoin(first[0], &second) || self.adjoin(first[1], &second) {
