@@ -118,8 +118,12 @@ impl Layers {
 
     fn face(&self, particle: u32, corners: [u32; 3], places: &[DVec3], range: f64) -> Option<Pair> {
         let [a, b, c] = corners.map(|corner| places[corner as usize]);
+        let (place, grow) = (places[particle as usize], DVec3::splat(range));
+        if place.cmplt(a.min(b).min(c) - grow).any() || place.cmpgt(a.max(b).max(c) + grow).any() {
+            return None;
+        }
         let normal = (b - a).cross(c - a);
-        let height = (places[particle as usize] - a).dot(normal);
+        let height = (place - a).dot(normal);
         if height * height > range * range * normal.length_squared() || self.adjoin(particle, &corners) {
             return None;
         }
