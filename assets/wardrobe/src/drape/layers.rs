@@ -108,6 +108,11 @@ impl Layers {
         if one.corners.iter().any(|corner| other.corners.contains(corner)) {
             return;
         }
+        // Where two triangles have gone through each other neither knows its side any more: holding them would only pull the
+        // tangle tighter, left alone they slip apart.
+        if through(one, other, places) || through(other, one, places) {
+            return;
+        }
         for (from, to) in [(one, other), (other, one)] {
             pairs.extend(from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range)));
         }
@@ -166,6 +171,20 @@ impl Layers {
             }
         }
     }
+}
+
+/// Whether an edge of the one goes through the other.
+fn through(one: &Owner, other: &Owner, places: &[DVec3]) -> bool {
+    let [x, y, z] = one.corners.map(|corner| places[corner as usize]);
+    let [a, b, c] = other.corners.map(|corner| places[corner as usize]);
+    let normal = (b - a).cross(c - a);
+    let heights = [x, y, z].map(|place| (place - a).dot(normal));
+    let edges = [(x, y, 0, 1), (y, z, 1, 2), (z, x, 2, 0)];
+    edges.into_iter().filter(|(_, _, i, j)| heights[*i] * heights[*j] < 0.0).any(|(from, to, i, j)| {
+        let spot = from.lerp(to, heights[i] / (heights[i] - heights[j]));
+        let left_of = |start: DVec3, end: DVec3| (end - start).cross(spot - start).dot(normal) >= 0.0;
+        left_of(a, b) && left_of(b, c) && left_of(c, a)
+    })
 }
 
 /// Four particles that are too near: `sum weights x` is too short along `normal` by `depth`.
