@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::grid::CellGrid;
 use super::model::Model;
 use super::points::Points;
+use super::tangle::Tangle;
 
 /// What may touch before the next search.
 #[derive(Debug, Clone, Copy)]
@@ -30,7 +31,14 @@ pub(super) struct Layers {
     /// Per sewn particle, itself and those it shares a triangle with, sorted.
     neighbours: Vec<Vec<u32>>,
     thickness: f64,
+    near: Near,
+}
+
+/// What a search finds.
+#[derive(Debug, Default)]
+struct Near {
     pairs: Vec<Pair>,
+    tangles: Vec<Tangle>,
 }
 
 /// A triangle, and which of its corners and edges are looked at with it: each is with one triangle only.
@@ -79,7 +87,7 @@ impl Layers {
             list.sort_unstable();
             list.dedup();
         }
-        Self { triangles, sewn, neighbours, thickness, pairs: Vec::new() }
+        Self { triangles, sewn, neighbours, thickness, near: Near::default() }
     }
 
     /// Finds all pairs that are within the thickness and `reach`, metres.
@@ -95,29 +103,36 @@ impl Layers {
         let grid = CellGrid::new(&boxes, cell);
         let this = &*self;
         let of_triangle = |index: usize| {
-            let mut pairs = Vec::new();
+            let mut near = Near::default();
             for other in grid.overlapping(index as u32, &boxes) {
-                this.add_pairs(&this.triangles[index], &this.triangles[other as usize], places, range, &mut pairs);
+                this.add(&this.triangles[index], &this.triangles[other as usize], places, range, &mut near);
             }
-            pairs
+            near
         };
-        self.pairs = (0..self.triangles.len()).into_par_iter().with_min_len(256).flat_map_iter(of_triangle).collect();
+        let found: Vec<Near> = (0..self.triangles.len()).into_par_iter().with_min_len(256).map(of_triangle).collect();
+        self.near = Near::default();
+        for near in found {
+            self.near.pairs.extend(near.pairs);
+            self.near.tangles.extend(near.tangles);
+        }
     }
 
-    fn add_pairs(&self, one: &Owner, other: &Owner, places: &[DVec3], range: f64, pairs: &mut Vec<Pair>) {
+    fn add(&self, one: &Owner, other: &Owner, places: &[DVec3], range: f64, near: &mut Near) {
         if one.corners.iter().any(|corner| other.corners.contains(corner)) {
             return;
         }
-        // Where two triangles have gone through each other neither knows its side any more: holding them would only pull the
-        // tangle tighter, left alone they slip apart.
-        if through(one, other, places) || through(other, one, places) {
+        // Where two triangles have gone through each other neither knows its side any more: holding them there would only pull
+        // the tangle tighter.
+        let before = near.tangles.len();
+        near.tangles.extend(Tangle::between(&one.corners, &other.corners, places).chain(Tangle::between(&other.corners, &one.corners, places)));
+        if near.tangles.len() > before {
             return;
         }
         for (from, to) in [(one, other), (other, one)] {
-            pairs.extend(from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range)));
+            near.pairs.extend(from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range)));
         }
         for first in one.own_edges() {
-            pairs.extend(other.own_edges().filter_map(|second| self.crossing(first, second, places, range)));
+            near.pairs.extend(other.own_edges().filter_map(|second| self.crossing(first, second, places, range)));
         }
     }
 
@@ -157,13 +172,23 @@ impl Layers {
         Some(Pair::Edges { first, second, direction, apart: self.thickness })
     }
 
+    /// Whether the cloth was found to go through itself.
+    pub(super) fn tangled(&self) -> bool {
+        !self.near.tangles.is_empty()
+    }
+
+    /// Draws apart what has gone through itself; `step` in seconds.
+    pub(super) fn untangle(&self, points: &Points, inverse_mass: &[f64], step: f64) {
+        self.near.tangles.iter().for_each(|tangle| tangle.pull(points, inverse_mass, step));
+    }
+
     /// Keeps every pair apart. `before`: places at the step's start, for friction.
     pub(super) fn solve(&self, points: &Points, before: &[DVec3], inverse_mass: &[f64], friction: f64) {
         let touching = |pair: &&Pair| touch(pair, points).is_some();
-        let active: Vec<&Pair> = if self.pairs.len() < 4096 {
-            self.pairs.iter().filter(touching).collect()
+        let active: Vec<&Pair> = if self.near.pairs.len() < 4096 {
+            self.near.pairs.iter().filter(touching).collect()
         } else {
-            self.pairs.par_iter().with_min_len(1024).filter(touching).collect()
+            self.near.pairs.par_iter().with_min_len(1024).filter(touching).collect()
         };
         for pair in active {
             if let Some(touch) = touch(pair, points) {
@@ -171,20 +196,6 @@ impl Layers {
             }
         }
     }
-}
-
-/// Whether an edge of the one goes through the other.
-fn through(one: &Owner, other: &Owner, places: &[DVec3]) -> bool {
-    let [x, y, z] = one.corners.map(|corner| places[corner as usize]);
-    let [a, b, c] = other.corners.map(|corner| places[corner as usize]);
-    let normal = (b - a).cross(c - a);
-    let heights = [x, y, z].map(|place| (place - a).dot(normal));
-    let edges = [(x, y, 0, 1), (y, z, 1, 2), (z, x, 2, 0)];
-    edges.into_iter().filter(|(_, _, i, j)| heights[*i] * heights[*j] < 0.0).any(|(from, to, i, j)| {
-        let spot = from.lerp(to, heights[i] / (heights[i] - heights[j]));
-        let left_of = |start: DVec3, end: DVec3| (end - start).cross(spot - start).dot(normal) >= 0.0;
-        left_of(a, b) && left_of(b, c) && left_of(c, a)
-    })
 }
 
 /// Four particles that are too near: `sum weights x` is too short along `normal` by `depth`.
