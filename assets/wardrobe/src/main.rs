@@ -66,7 +66,9 @@ fn run(command: &Command) -> Result<()> {
     let cancelled = AtomicBool::new(false);
     let last = std::sync::Mutex::new(String::new());
     let report = |step: Step<'_>| {
-        if let Ok(mut last) = last.lock() && *last != step.stage {
+        if let Ok(mut last) = last.lock()
+            && *last != step.stage
+        {
             *last = step.stage.to_owned();
             #[allow(clippy::print_stderr, reason = "progress")]
             {
@@ -79,8 +81,17 @@ fn run(command: &Command) -> Result<()> {
     let count: usize = finest.pieces.iter().map(|piece| piece.triangles.len()).sum();
     #[allow(clippy::print_stderr, reason = "progress")]
     {
-        eprintln!("{}\n{}", measure::Figures::HEAD, measure::measure(finest, &draped, &body).row(&finest.name));
-        eprintln!("{:6.1} s  {count} triangles, {} substeps, fastest {:.1} mm/s", started.elapsed().as_secs_f64(), rest.substeps, rest.fastest * 1e3);
+        eprintln!(
+            "{}\n{}",
+            measure::Figures::HEAD,
+            measure::measure(finest, &draped, &body).row(&finest.name)
+        );
+        eprintln!(
+            "{:6.1} s  {count} triangles, {} substeps, fastest {:.1} mm/s",
+            started.elapsed().as_secs_f64(),
+            rest.substeps,
+            rest.fastest * 1e3
+        );
     }
     write_obj(finest, &draped, output)
 }
