@@ -171,6 +171,8 @@ fn origins(garment: &Garment, positions: &[Vec3]) -> Vec<Vec3> {
     }
     let origin = |((&position, &normal), (sum, count)): ((&Vec3, &Vec3), (Vec3, f32))| {
         let to_middle = if count > 0.0 { sum / count - position } else { Vec3::ZERO };
+        // On a bulge the middle lies below the surface: never towards that.
+        let to_middle = to_middle - normal * to_middle.dot(normal).min(0.0);
         // As far along the normal as towards the middle: above the vertex's own triangles, whatever their slope.
         position + to_middle * STEP + normal * (to_middle.length() * STEP).max(LEAST_STEP)
     };

@@ -44,6 +44,25 @@ fn a_plane_and_a_ball_see_all_of_the_sky() {
 }
 
 #[test]
+fn a_dome_of_equal_triangles_sees_all_of_the_sky() {
+    // The middle of a vertex's triangles lies straight below it, in the cloth.
+    let mut dome = Mesh { uvs: Some(vec![Vec2::ZERO; 21 * 21]), ..Mesh::default() };
+    let radius = 30.0f32;
+    for (i, j) in (0..21u32).flat_map(|j| (0..21).map(move |i| (i, j))) {
+        let at = Vec2::new(i as f32 + 0.5 * j as f32 - 15.0, 0.75f32.sqrt() * (j as f32 - 10.0));
+        let point = at.extend((radius * radius - at.length_squared()).sqrt());
+        dome.positions.push(point);
+        dome.normals.push(point / radius);
+        if i < 20 && j < 20 {
+            let a = 21 * j + i;
+            dome.triangles.extend([[a, a + 1, a + 21], [a + 1, a + 22, a + 21]]);
+        }
+    }
+    let open = open_by(256, &[dome]);
+    assert!(open.iter().all(|&open| open == 1.0), "{open:?}");
+}
+
+#[test]
 fn inside_a_closed_box_there_is_no_sky() {
     let sides = [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y, Vec3::Z, Vec3::NEG_Z].map(|side| {
         let (right, up) = side.any_orthonormal_pair();
