@@ -3,6 +3,7 @@
 mod seams;
 #[cfg(test)]
 mod tests;
+mod variant;
 
 use std::path::Path;
 
@@ -12,6 +13,8 @@ use glam::{DVec2, DVec3, Vec2};
 
 use crate::cut::{CutGarment, CutPiece};
 use crate::drape::Draped;
+
+pub use variant::{Variant, turn_of_part};
 
 /// UVs are multiples of this, metres (a quarter of a micrometre): so they come back from a file to the bit, as
 /// [`export::garment`] says.

@@ -84,7 +84,7 @@ fn a_saved_garment_read_again_has_its_pieces() {
 #[test]
 fn sewn_vertices_have_one_normal_and_seams_run_counter_clockwise() {
     let (cut, draped) = garment();
-    let made = Garment::new(super::mesh(&cut, &draped).unwrap()).unwrap();
+    let made = Garment::new(mesh(&cut, &draped).unwrap()).unwrap();
     assert!(made.notices.is_empty(), "{:?}", made.notices);
     // The lower end of the middle seam: one right angle of either square.
     assert_eq!(made.normals[1], made.normals[4]);
@@ -112,7 +112,7 @@ fn what_does_not_fit_is_refused_by_name() {
     let refused = |change: fn(&mut CutGarment, &mut Draped), what: &str| {
         let (mut cut, mut draped) = garment();
         change(&mut cut, &mut draped);
-        let message = super::mesh(&cut, &draped).unwrap_err().to_string();
+        let message = mesh(&cut, &draped).unwrap_err().to_string();
         assert!(message.contains(what), "{message}");
     };
     refused(|_, draped| draped.positions.truncate(2), "not as many");
@@ -120,4 +120,56 @@ fn what_does_not_fit_is_refused_by_name() {
     refused(|_, draped| draped.positions[1][0].x = f64::NAN, "piece 'Right': a vertex that is nowhere");
     refused(|cut, _| cut.pieces[2].triangles[0][0] = 9, "piece 'Tab': a triangle");
     refused(|cut, _| cut.joins[1].pairs[0].0.vertex = 9, "seam 'top': joins a vertex");
+}
+
+/// The grain of a panel in space, told by its UVs: where the warp runs on its first triangle.
+fn warp(garment: &Garment, panel: usize) -> glam::Vec3 {
+    let corners = garment.triangles[garment.panels[panel].triangles.start as usize].map(|k| k as usize);
+    let (p, uv) = (corners.map(|k| garment.positions[k]), corners.map(|k| garment.uvs[k]));
+    let (e, f) = (uv[1] - uv[0], uv[2] - uv[0]);
+    let warp = Vec2::from_angle(garment.panels[panel].pattern.grain.unwrap());
+    let along = Vec2::new(warp.perp_dot(f), e.perp_dot(warp)) / e.perp_dot(f);
+    (p[1] - p[0]) * along.x + (p[2] - p[0]) * along.y
+}
+
+#[test]
+fn in_every_variant_the_cloth_lies_the_same_and_seams_end_at_the_same_places() {
+    let (cut, draped) = garment();
+    let place_of = |garment: &Garment, panel: usize, end: Vec2| {
+        let range = &garment.panels[panel].triangles;
+        let corners = garment.triangles[range.start as usize..range.end as usize].as_flattened();
+        let at = corners.iter().find(|&&corner| garment.uvs[corner as usize] == end);
+        garment.positions[*at.unwrap() as usize]
+    };
+    let before = Garment::new(mesh(&cut, &draped).unwrap()).unwrap();
+    for variant in [Variant::Mirrored, Variant::Turned] {
+        let mut mesh = mesh(&cut, &draped).unwrap();
+        variant.apply(&mut mesh);
+        let after = Garment::new(mesh).unwrap();
+        assert!(after.notices.is_empty(), "{:?}", after.notices);
+        for panel in 0..3 {
+            let turned = after.panels[panel].pattern.grain.unwrap().to_degrees() % 90.0;
+            assert_eq!(turned.abs() > 1.0, variant == Variant::Turned, "{turned}");
+            assert_eq!(after.panels[panel].flags.mirrored, variant == Variant::Mirrored);
+            let (now, then) = (warp(&after, panel), warp(&before, panel));
+            assert!((now - then).length() < 1e-5 && (now.length() - 1.0).abs() < 1e-5, "{now} for {then}");
+            for (seam, old) in
+                after.panels[panel].pattern.seams.iter().zip(&before.panels[panel].pattern.seams)
+            {
+                let mut ends = seam.edge.map(|end| place_of(&after, panel, end));
+                let other = seam.partner_edge.map(|end| place_of(&after, seam.partner, end));
+                if variant == Variant::Mirrored {
+                    ends.reverse();
+                }
+                assert_eq!(ends, old.edge.map(|end| place_of(&before, panel, end)), "{}", seam.name);
+                assert_eq!(seam.partner, old.partner);
+                assert!(seam.name != "middle" || other.contains(&ends[0]), "sewn to the same place");
+            }
+        }
+    }
+    let mut mesh = mesh(&cut, &draped).unwrap();
+    Variant::WithoutUvs.apply(&mut mesh);
+    let bare = Garment::new(mesh).unwrap();
+    assert!(!bare.has_uvs && bare.panels[0].pattern.grain.is_none());
+    assert_eq!(bare.panels[1].pattern.mirror, Some(0));
 }
