@@ -1,5 +1,6 @@
 //! A scene from the command line: a garment, its panels' fabrics and directions, ready to draw.
 
+mod bundled;
 mod fabric;
 mod garment;
 mod look;

@@ -101,6 +101,7 @@ mod tests {
             takes_fabric: true,
             area: 0.5,
             flags: PanelFlags::default(),
+            pattern: Default::default(),
         };
         Garment {
             positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
