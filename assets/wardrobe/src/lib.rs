@@ -7,5 +7,6 @@
 pub mod body;
 pub mod cut;
 pub mod drape;
+pub mod flat_sheet;
 pub mod garment_file;
 pub mod pattern;

@@ -1,74 +1,65 @@
 //! Patterns: a garment's flat pieces as data.
+//!
+//! A pattern file is JSON, one [`Pattern`]. Lengths are metres, angles degrees. A piece is drawn as it lies on the table with the
+//! right side of the cloth up: u to the right, v up, its outline counter-clockwise. What a file may hold is said by
+//! [`Pattern`], [`Piece`] and [`Seam`], field by field; [`Pattern::unfold`] checks it and writes every piece and seam out whole.
+//!
+//! A skirt of two equal pieces, each given by its right-hand half, which is the wearer's left at the front and the right at the back:
+//!
+//! ```
+//! let pattern = wardrobe::pattern::Pattern::from_json(r#"{
+//!   "version": 1, "name": "skirt", "figure": "standing",
+//!   "pieces": [
+//!     { "name": "front", "mirrored": true, "grain_deg": 90, "start": [0, 0],
+//!       "outline": [
+//!         { "name": "hem", "path": [[0.35, 0.03]] },
+//!         { "name": "left side", "path": [[0.25, 0.4], { "curve": [[0.24, 0.46], [0.22, 0.52], [0.2, 0.56]] }] },
+//!         { "name": "waist", "path": [{ "arc": [[0.1, 0.545], [0, 0.54]] }] } ],
+//!       "notches": [{ "edge": "left side", "at": 0.7 }],
+//!       "placement": { "kind": "around", "limb": "torso", "point": [0, 0.54], "along": 0.4, "angle_deg": 0, "radius": 0.17 } },
+//!     { "name": "back", "mirrored": true, "grain_deg": 90, "start": [0, 0],
+//!       "outline": [
+//!         { "name": "hem", "path": [[0.35, 0.03]] },
+//!         { "name": "right side", "path": [[0.25, 0.4], { "curve": [[0.24, 0.46], [0.22, 0.52], [0.2, 0.56]] }] },
+//!         { "name": "waist", "path": [{ "arc": [[0.1, 0.545], [0, 0.54]] }] } ],
+//!       "placement": { "kind": "around", "limb": "torso", "point": [0, 0.54], "along": 0.4, "angle_deg": 180, "radius": 0.17 } }
+//!   ],
+//!   "seams": [
+//!     { "name": "left side", "mirrored": true, "a": ["front: left side"], "b": ["back: left side"] }
+//!   ]
+//! }"#)?;
+//! let whole = pattern.unfold()?;
+//! assert_eq!((whole.pieces.len(), whole.seams.len()), (2, 2));
+//! # Ok::<(), amc_core::Error>(())
+//! ```
 
-use serde::{Deserialize, Serialize};
+mod check;
+mod cloth;
+pub(crate) mod crossing;
+mod data;
+mod draw;
+mod halves;
+mod hang;
+mod line;
+mod mirror;
+mod path;
+mod placement;
+mod seam_check;
+mod unfold;
+mod whole;
 
-/// How a cloth resists, and what it weighs.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Cloth {
-    /// Mass of a square metre, kilograms.
-    pub density: f64,
-    /// Tension per metre of width at full stretch along the warp, newtons per metre.
-    pub warp: f64,
-    /// The same along the weft.
-    pub weft: f64,
-    /// Resistance to shear between warp and weft, newtons per metre.
-    pub shear: f64,
-    /// Bending stiffness, newton metres.
-    pub bending: f64,
-    /// Coulomb friction with the body and with itself.
-    pub friction: f64,
-    /// Thickness, metres.
-    pub thickness: f64,
-}
+#[cfg(test)]
+pub(crate) mod tests;
 
-impl Default for Cloth {
-    /// A plain cotton shirting: figures of the order that fabric tests (KES, FAST) give.
-    fn default() -> Self {
-        Self {
-            density: 0.13,
-            warp: 2000.0,
-            weft: 1500.0,
-            shear: 60.0,
-            bending: 8e-6,
-            friction: 0.3,
-            thickness: 0.0006,
-        }
-    }
-}
+pub use cloth::Cloth;
+pub use data::{
+    Edge, Fold, FoldPlace, InnerLine, LinePart, Notch, Pattern, Piece, Points, Seam, SeamKind, SeamPart,
+    Segment,
+};
+pub use hang::{Hang, Station};
+pub use line::{Line, LineKind};
+pub use placement::Placement;
+pub use whole::{SidePart, Unfolded, WholeFold, WholeNotch, WholePiece, WholeSeam};
 
-/// Where a piece lies before it is sewn. The right side faces away from the limb.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
-pub enum Placement {
-    /// Wrapped round a limb of the figure: +v of the piece goes along the limb's axis towards its start (upwards on the
-    /// torso, towards the shoulder on an arm), +u counter-clockwise round it as seen from its start (on the torso: from the wearer's
-    /// right to the wearer's left at the front).
-    Around {
-        /// The limb's name: see [`crate::body::Figure`].
-        limb: String,
-        /// The piece's point, metres, that goes to the place below.
-        point: [f64; 2],
-        /// Distance of that point from the limb's start along its axis, metres; negative: beyond it.
-        along: f64,
-        /// Where round the limb, degrees from its front (torso, legs, neck) or its outer side (arms), counter-clockwise as
-        /// seen from the limb's start.
-        angle_deg: f64,
-        /// Distance from the axis, metres; the piece is bent to this radius.
-        radius: f64,
-        /// How much the radius grows per metre of distance from the start, for skirts; 0: a cylinder.
-        #[serde(default)]
-        flare: f64,
-    },
-    /// Flat in space.
-    Flat {
-        /// The piece's point, metres, that goes to `at`.
-        point: [f64; 2],
-        /// Where, metres.
-        at: [f64; 3],
-        /// Where +u goes: made unit.
-        across: [f64; 3],
-        /// Where +v goes: made perpendicular and unit. The right side faces `across x up`.
-        up: [f64; 3],
-    },
-}
+/// Shorter distances than this count as none when outlines are closed and lines meet, metres.
+pub(crate) const CLOSE: f64 = 1e-4;
