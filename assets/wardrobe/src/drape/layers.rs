@@ -97,11 +97,18 @@ impl Layers {
         let of_triangle = |index: usize| {
             let mut pairs = Vec::new();
             for other in grid.overlapping(index as u32, &boxes) {
-                this.add_pairs(&this.triangles[index], &this.triangles[other as usize], places, range, &mut pairs);
+                this.add_pairs(
+                    &this.triangles[index],
+                    &this.triangles[other as usize],
+                    places,
+                    range,
+                    &mut pairs,
+                );
             }
             pairs
         };
-        self.pairs = (0..self.triangles.len()).into_par_iter().with_min_len(256).flat_map_iter(of_triangle).collect();
+        self.pairs =
+            (0..self.triangles.len()).into_par_iter().with_min_len(256).flat_map_iter(of_triangle).collect();
     }
 
     fn add_pairs(&self, one: &Owner, other: &Owner, places: &[DVec3], range: f64, pairs: &mut Vec<Pair>) {
@@ -109,7 +116,9 @@ impl Layers {
             return;
         }
         for (from, to) in [(one, other), (other, one)] {
-            pairs.extend(from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range)));
+            pairs.extend(
+                from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range)),
+            );
         }
         for first in one.own_edges() {
             pairs.extend(other.own_edges().filter_map(|second| self.crossing(first, second, places, range)));
@@ -138,7 +147,10 @@ impl Layers {
         let [c, d] = second.map(|end| places[end as usize]);
         let (s, t) = nearest_on_edges(a, b, c, d)?;
         let between = a.lerp(b, s) - c.lerp(d, t);
-        if between.length_squared() > range * range || self.adjoin(first[0], &second) || self.adjoin(first[1], &second) {
+        if between.length_squared() > range * range
+            || self.adjoin(first[0], &second)
+            || self.adjoin(first[1], &second)
+        {
             return None;
         }
         let direction = between.try_normalize()?;
@@ -178,7 +190,9 @@ impl Touch {
             return;
         }
         self.shift(points, &w, self.normal * (self.depth / weight));
-        let slid: DVec3 = (0..4).map(|i| (points.get(self.particles[i]) - before[self.particles[i] as usize]) * self.weights[i]).sum();
+        let slid: DVec3 = (0..4)
+            .map(|i| (points.get(self.particles[i]) - before[self.particles[i] as usize]) * self.weights[i])
+            .sum();
         let slid = slid.reject_from_normalized(self.normal);
         let length = slid.length();
         if length > 0.0 {
@@ -230,7 +244,11 @@ fn touch(pair: &Pair, points: &Points) -> Option<Touch> {
             let between = a.lerp(b, s) - c.lerp(d, t);
             let length = between.length();
             let upright = between.dot(direction);
-            let (normal, depth) = if length < 1e-9 || upright < 0.0 { (direction, apart - upright) } else { (between / length, apart - length) };
+            let (normal, depth) = if length < 1e-9 || upright < 0.0 {
+                (direction, apart - upright)
+            } else {
+                (between / length, apart - length)
+            };
             if depth <= 0.0 || depth > 2.0 * apart {
                 return None;
             }

@@ -20,7 +20,10 @@ pub fn levels(pattern: &Pattern, edge_length: f64) -> Result<Vec<CutGarment>> {
 
 fn edge_lengths(edge_length: f64) -> Vec<f64> {
     let steps = ((COARSEST / edge_length).ln() / FINER.ln()).ceil().max(0.0);
-    (0..=steps as i32).rev().map(|step| edge_length * (COARSEST / edge_length).max(1.0).powf(f64::from(step) / steps.max(1.0))).collect()
+    (0..=steps as i32)
+        .rev()
+        .map(|step| edge_length * (COARSEST / edge_length).max(1.0).powf(f64::from(step) / steps.max(1.0)))
+        .collect()
 }
 
 /// The edge length at which a pattern has about so many triangles, metres.

@@ -33,8 +33,15 @@ fn look() {
     let levels = [cloths::tube(0.03), cloths::tube(0.013)];
     let garment = &levels[1];
     let start = std::time::Instant::now();
-    let (draped, rest) = drape(&levels, &Body::new(garment.figure), &Options::default(), &Progress::none()).unwrap();
-    eprintln!("{} triangles {:?} {} steps fastest {}", garment.pieces[0].triangles.len(), start.elapsed(), rest.substeps, rest.fastest);
+    let (draped, rest) =
+        drape(&levels, &Body::new(garment.figure), &Options::default(), &Progress::none()).unwrap();
+    eprintln!(
+        "{} triangles {:?} {} steps fastest {}",
+        garment.pieces[0].triangles.len(),
+        start.elapsed(),
+        rest.substeps,
+        rest.fastest
+    );
     for e in rest.energies.iter().step_by(10) {
         eprintln!("{:.5} {:.5} {:.5}", e.kinetic, e.elastic, e.height);
     }
