@@ -76,7 +76,13 @@ fn seams_and_mirror_partners_are_mutual() {
         for (index, panel) in garment.panels.iter().enumerate() {
             if let Some(partner) = panel.pattern.mirror {
                 assert_ne!(partner, index, "{} {}", entry.name, panel.name);
-                assert_eq!(garment.panels[partner].pattern.mirror, Some(index), "{} {}", entry.name, panel.name);
+                assert_eq!(
+                    garment.panels[partner].pattern.mirror,
+                    Some(index),
+                    "{} {}",
+                    entry.name,
+                    panel.name
+                );
             }
             for seam in &panel.pattern.seams {
                 let back = garment.panels[seam.partner].pattern.seams.iter().any(|other| {
