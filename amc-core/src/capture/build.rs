@@ -336,7 +336,8 @@ impl<'a> Reading<'a> {
         for (k, resampled) in from_kept {
             texels[k] = Some(resampled);
         }
-        texels.par_iter_mut().zip(&self.plan.pictures).try_for_each(|(texels, planned)| {
+        // One at a time, or a thread that is done early waits for several of another's.
+        texels.par_iter_mut().with_max_len(1).zip(&self.plan.pictures).try_for_each(|(texels, planned)| {
             if texels.is_none() {
                 let raster = self.read(planned)?;
                 check_size(first, &planned.path, &raster)?;
