@@ -17,7 +17,7 @@ pub(super) struct Model {
     pub(super) particle_of: Vec<Vec<u32>>,
     /// Kilograms.
     pub(super) mass: Vec<f64>,
-    /// 1/kilograms.
+    /// 1/kilograms; 0 for one that nothing moves.
     pub(super) inverse_mass: Vec<f64>,
     /// All pieces' triangles with area, as particles.
     pub(super) triangles: Vec<[u32; 3]>,
@@ -93,8 +93,7 @@ impl Model {
 
     /// Places of vertices from those of particles.
     pub(super) fn scatter(&self, places: &[DVec3]) -> Vec<Vec<DVec3>> {
-        let of_piece =
-            |particles: &Vec<u32>| particles.iter().map(|particle| places[*particle as usize]).collect();
+        let of_piece = |particles: &Vec<u32>| particles.iter().map(|particle| places[*particle as usize]).collect();
         self.particle_of.iter().map(of_piece).collect()
     }
 }
@@ -147,14 +146,7 @@ fn hinges(garment: &CutGarment, particle_of: &[Vec<u32>]) -> Vec<Hinge> {
         let folds = fold_angles(piece);
         for corners in &piece.triangles {
             for i in 0..3 {
-                let side = side(
-                    piece,
-                    cloth,
-                    &folds,
-                    index,
-                    [corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]],
-                    particles,
-                );
+                let side = side(piece, cloth, &folds, index, [corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]], particles);
                 let key = [side.edge[0].min(side.edge[1]), side.edge[0].max(side.edge[1])];
                 open.entry(key).or_default().push(side);
             }
@@ -163,10 +155,7 @@ fn hinges(garment: &CutGarment, particle_of: &[Vec<u32>]) -> Vec<Hinge> {
     let mut hinges = Vec::new();
     for sides in open.into_values() {
         for (i, first) in sides.iter().enumerate() {
-            let within = sides[i + 1..]
-                .iter()
-                .filter(|second| second.piece == first.piece && second.far != first.far)
-                .map(|second| join(first, second));
+            let within = sides[i + 1..].iter().filter(|second| second.piece == first.piece && second.far != first.far).map(|second| join(first, second));
             hinges.extend(within);
         }
         if let [first, second] = sides.as_slice()
@@ -179,22 +168,16 @@ fn hinges(garment: &CutGarment, particle_of: &[Vec<u32>]) -> Vec<Hinge> {
     hinges
 }
 
-fn side(
-    piece: &CutPiece,
-    cloth: &Cloth,
-    folds: &BTreeMap<[u32; 2], f64>,
-    index: usize,
-    [a, b, c]: [u32; 3],
-    particles: &[u32],
-) -> Side {
+fn side(piece: &CutPiece, cloth: &Cloth, folds: &BTreeMap<[u32; 2], f64>, index: usize, [a, b, c]: [u32; 3], particles: &[u32]) -> Side {
     let flat = |vertex: u32| piece.flat[vertex as usize];
+    let bending = cloth.bending.max(LEAST_BENDING * cloth.density * flat(a).distance(flat(b)).powi(3));
     let rest = folds.get(&[a.min(b), a.max(b)]).copied();
     Side {
         edge: [particles[a as usize], particles[b as usize]],
         far: particles[c as usize],
         length: flat(a).distance(flat(b)),
         area: 0.5 * (flat(b) - flat(a)).perp_dot(flat(c) - flat(a)).abs(),
-        bending: if rest.is_some() { cloth.bending * FOLD_STIFFNESS } else { cloth.bending },
+        bending: if rest.is_some() { bending * FOLD_STIFFNESS } else { bending },
         rest: rest.unwrap_or(0.0),
         piece: index,
     }
@@ -202,6 +185,10 @@ fn side(
 
 /// How much stiffer a pressed fold keeps its angle than the cloth keeps flat.
 const FOLD_STIFFNESS: f64 = 50.0;
+
+/// Cloth folds by its own weight over a length of `(bending / (density gravity))^(1/3)`. Cloth too soft to fold no closer than about
+/// its triangles' edges is made so stiff, or it would crumple into shapes that the triangles cannot show. Metres per second squared.
+const LEAST_BENDING: f64 = 8.0;
 
 fn fold_angles(piece: &CutPiece) -> BTreeMap<[u32; 2], f64> {
     let pairs = piece.folds.iter().flat_map(|fold| fold.vertices.windows(2).map(|pair| (pair, fold.angle)));

@@ -19,8 +19,10 @@ const FREE_SUBSTEPS: f64 = 12.0;
 const LEAST_FREE_PATH: f64 = 0.04;
 const MOST_FREE_PATH: f64 = 0.25;
 const FARTHEST_FREE_PATH: f64 = 0.004;
+/// As long as the cloth is tangled a search is good for so many substeps.
+const TANGLED_SUBSTEPS: usize = 16;
 /// No particle is faster, metres per second.
-const MOST_SPEED: f64 = 2.0;
+const MOST_SPEED: f64 = 1.5;
 /// A particle farther from the origin has been thrown out by a fault, metres.
 const FARTHEST: f64 = 50.0;
 
@@ -82,6 +84,7 @@ pub(super) struct Solver<'a> {
     free_path: f64,
     /// Places at the last search for contacts.
     searched: Vec<DVec3>,
+    since_search: usize,
     planes: Vec<Option<Plane>>,
     layers: Layers,
     pub(super) threads: Vec<Thread>,
@@ -93,14 +96,7 @@ pub(super) struct Solver<'a> {
 
 impl<'a> Solver<'a> {
     /// Cloth at rest at `places`; kept `margin` off the body, metres, and off itself by `layers`; `step` in seconds.
-    pub(super) fn new(
-        model: &'a Model,
-        body: &'a Body,
-        places: &[DVec3],
-        margin: f64,
-        layers: Layers,
-        step: f64,
-    ) -> Self {
+    pub(super) fn new(model: &'a Model, body: &'a Body, places: &[DVec3], margin: f64, layers: Layers, step: f64) -> Self {
         let mut solver = Self {
             model,
             body,
@@ -110,6 +106,7 @@ impl<'a> Solver<'a> {
             before: places.to_vec(),
             free_path: 0.0,
             searched: Vec::new(),
+            since_search: 0,
             planes: Vec::new(),
             layers,
             threads: Vec::new(),
@@ -126,17 +123,17 @@ impl<'a> Solver<'a> {
             return;
         }
         self.predict(conditions);
-        if self.wandered() {
+        self.since_search += 1;
+        if self.wandered() || (self.layers.tangled() && self.since_search >= TANGLED_SUBSTEPS) {
             self.search();
         }
         let (points, inverse_mass, step) = (&self.points, &self.model.inverse_mass, self.step);
-        self.model
-            .membranes
-            .for_each(|membrane| membrane.solve(points, inverse_mass, conditions.softness, step));
+        self.model.membranes.for_each(|membrane| membrane.solve(points, inverse_mass, conditions.softness, step));
         self.model.hinges.for_each(|hinge| hinge.solve(points, inverse_mass, step));
         for thread in &self.threads {
             thread.solve(points, inverse_mass);
         }
+        self.layers.untangle(points, inverse_mass, step);
         self.layers.solve(points, &self.before, inverse_mass, self.model.friction);
         self.rest_on_body();
     }
@@ -145,14 +142,15 @@ impl<'a> Solver<'a> {
     fn predict(&mut self, conditions: Conditions) {
         let step = self.step;
         let kept = (-conditions.drag * step).exp();
-        let points = &self.points;
+        let (points, inverse_mass) = (&self.points, &self.model.inverse_mass);
         let chunks = self.velocities.par_chunks_mut(CHUNK).zip(self.before.par_chunks_mut(CHUNK)).enumerate();
         chunks.for_each(|(chunk, (velocities, before))| {
-            for ((velocity, before), particle) in
-                velocities.iter_mut().zip(before).zip((chunk * CHUNK) as u32..)
-            {
-                *velocity = ((*velocity - DVec3::Y * (conditions.gravity * step)) * kept)
-                    .clamp_length_max(MOST_SPEED);
+            for ((velocity, before), particle) in velocities.iter_mut().zip(before).zip((chunk * CHUNK) as u32..) {
+                if inverse_mass[particle as usize] == 0.0 {
+                    *velocity = DVec3::ZERO;
+                    continue;
+                }
+                *velocity = ((*velocity - DVec3::Y * (conditions.gravity * step)) * kept).clamp_length_max(MOST_SPEED);
                 *before = points.get(particle);
                 points.set(particle, *before + *velocity * step);
             }
@@ -161,15 +159,14 @@ impl<'a> Solver<'a> {
 
     fn wandered(&self) -> bool {
         let far = self.free_path * self.free_path;
-        let moved = |(particle, searched): (usize, &DVec3)| {
-            !(self.points.get(particle as u32).distance_squared(*searched) <= far)
-        };
+        let moved = |(particle, searched): (usize, &DVec3)| !(self.points.get(particle as u32).distance_squared(*searched) <= far);
         self.searched.par_iter().enumerate().with_min_len(CHUNK).any(moved)
     }
 
     /// Finds what each particle may touch until it has moved by the free path.
     fn search(&mut self) {
         self.searched = self.points.to_vec();
+        self.since_search = 0;
         self.blown_up |= !self.searched.iter().all(|place| place.abs().max_element() < FARTHEST);
         if self.blown_up {
             return;
@@ -208,10 +205,7 @@ impl<'a> Solver<'a> {
 
     /// The largest distance of a particle from where it was, metres.
     pub(super) fn farthest_from(&self, places: &[DVec3]) -> f64 {
-        let moved = places
-            .iter()
-            .enumerate()
-            .map(|(particle, place)| self.points.get(particle as u32).distance_squared(*place));
+        let moved = places.iter().enumerate().map(|(particle, place)| self.points.get(particle as u32).distance_squared(*place));
         moved.fold(0.0, f64::max).sqrt()
     }
 
@@ -223,12 +217,10 @@ impl<'a> Solver<'a> {
     /// The energies now.
     pub(super) fn energy(&self, gravity: f64) -> Energy {
         let model = self.model;
-        let kinetic =
-            model.mass.iter().zip(&self.velocities).map(|(mass, v)| 0.5 * mass * v.length_squared()).sum();
+        let kinetic = model.mass.iter().zip(&self.velocities).map(|(mass, v)| 0.5 * mass * v.length_squared()).sum();
         let stretch: f64 = model.membranes.all().iter().map(|membrane| membrane.energy(&self.points)).sum();
         let bending: f64 = model.hinges.all().iter().map(|hinge| hinge.energy(&self.points)).sum();
-        let height =
-            model.mass.iter().enumerate().map(|(i, mass)| mass * gravity * self.points.get(i as u32).y).sum();
+        let height = model.mass.iter().enumerate().map(|(i, mass)| mass * gravity * self.points.get(i as u32).y).sum();
         Energy { kinetic, elastic: stretch + bending, height }
     }
 }
