@@ -7,12 +7,14 @@ use amc_core::mesh::{Garment, Mesh};
 use amc_core::reflectance::{self as reflectances, Lighting};
 use amc_core::render::Camera;
 use amc_core::{exchange, image::decode, mesh};
+use wardrobe::cut::cut;
+use wardrobe::pattern::Pattern;
 
 /// A fuzz target's name and what it does with the bytes.
 pub type Target = (&'static str, fn(&[u8]));
 
 /// All targets. A parser is one line here and one file in the fuzz crate.
-pub const TARGETS: [Target; 8] = [
+pub const TARGETS: [Target; 9] = [
     ("ktx2", ktx2),
     ("gltf", gltf),
     ("obj", obj),
@@ -21,6 +23,7 @@ pub const TARGETS: [Target; 8] = [
     ("camera", camera),
     ("reflectance", reflectance),
     ("exchange", exchanged),
+    ("pattern", pattern),
 ];
 
 /// AMC files.
@@ -110,5 +113,18 @@ pub fn reflectance(bytes: &[u8]) {
 pub fn exchanged(bytes: &[u8]) {
     if let Ok(amc) = exchange::parse(bytes) {
         write_and_read(&amc);
+    }
+}
+
+/// A garment's pattern, and whatever is let through cut coarsely.
+pub fn pattern(bytes: &[u8]) {
+    if let Ok(text) = std::str::from_utf8(bytes)
+        && let Ok(pattern) = Pattern::from_json(text)
+        && let Ok(garment) = cut(&pattern, 0.1)
+    {
+        for piece in &garment.pieces {
+            let count = piece.flat.len() as u32;
+            assert!(piece.triangles.as_flattened().iter().all(|&corner| corner < count));
+        }
     }
 }

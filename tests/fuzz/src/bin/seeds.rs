@@ -70,6 +70,8 @@ fn texts(satin: &str) -> Outcome {
     put("obj", "all.obj", OBJ.as_bytes())?;
     put("gltf", "quantised.gltf", GLTF.as_bytes())?;
     put("session", "session.json", SESSION.as_bytes())?;
+    put("pattern", "t-shirt.json", include_bytes!("../../../../assets/wardrobe/patterns/t-shirt.json"))?;
+    put("pattern", "scarf.json", include_bytes!("../../../../assets/wardrobe/patterns/scarf.json"))?;
     put("reflectance", "satin.json", satin.as_bytes())?;
     put("reflectance", "lights.json", LIGHTS.as_bytes())?;
     CAMERAS
