@@ -1,0 +1,70 @@
+//! Which boxes lie near a place: a hash of cells.
+
+use glam::{DVec3, IVec3};
+
+/// Boxes entered into the cells of a regular grid that they touch, the cells hashed (Teschner and others 2003).
+#[derive(Debug)]
+pub(super) struct CellGrid {
+    cell: f64,
+    mask: usize,
+    /// Per bucket: where its entries start; one more at the end.
+    starts: Vec<u32>,
+    entries: Vec<(IVec3, u32)>,
+}
+
+impl CellGrid {
+    /// Enters `boxes` (low and high corner, metres) into cells of the side `cell`, metres.
+    pub(super) fn new(boxes: &[(DVec3, DVec3)], cell: f64) -> Self {
+        let mask = (2 * boxes.len()).next_power_of_two().max(16) - 1;
+        let mut starts = vec![0u32; mask + 2];
+        for (low, high) in boxes {
+            cells(*low, *high, cell).for_each(|place| starts[bucket(place, mask) + 1] += 1);
+        }
+        for i in 1..starts.len() {
+            starts[i] += starts[i - 1];
+        }
+        let mut next = starts.clone();
+        let mut entries = vec![(IVec3::ZERO, 0); starts[mask + 1] as usize];
+        for (index, (low, high)) in boxes.iter().enumerate() {
+            for place in cells(*low, *high, cell) {
+                let slot = &mut next[bucket(place, mask)];
+                entries[*slot as usize] = (place, index as u32);
+                *slot += 1;
+            }
+        }
+        Self { cell, mask, starts, entries }
+    }
+
+    /// The boxes in the cell of a place, in order.
+    pub(super) fn at(&self, place: DVec3) -> impl Iterator<Item = u32> {
+        self.in_cell((place / self.cell).floor().as_ivec3())
+    }
+
+    /// The pairs of overlapping boxes of which `index` is the first, each once. `boxes` as they were entered.
+    pub(super) fn overlapping(&self, index: u32, boxes: &[(DVec3, DVec3)]) -> impl Iterator<Item = u32> {
+        let (low, high) = boxes[index as usize];
+        let first_of_both = move |place: IVec3, other: u32| {
+            let (other_low, other_high) = boxes[other as usize];
+            let overlap = low.cmple(other_high).all() && high.cmpge(other_low).all();
+            overlap && (low.max(other_low) / self.cell).floor().as_ivec3() == place
+        };
+        cells(low, high, self.cell)
+            .flat_map(move |place| self.in_cell(place).filter(move |other| *other > index && first_of_both(place, *other)))
+    }
+
+    fn in_cell(&self, place: IVec3) -> impl Iterator<Item = u32> {
+        let bucket = bucket(place, self.mask);
+        let entries = &self.entries[self.starts[bucket] as usize..self.starts[bucket + 1] as usize];
+        entries.iter().filter(move |entry| entry.0 == place).map(|entry| entry.1)
+    }
+}
+
+fn cells(low: DVec3, high: DVec3, cell: f64) -> impl Iterator<Item = IVec3> {
+    let (low, high) = ((low / cell).floor().as_ivec3(), (high / cell).floor().as_ivec3());
+    (low.z..=high.z).flat_map(move |z| (low.y..=high.y).flat_map(move |y| (low.x..=high.x).map(move |x| IVec3::new(x, y, z))))
+}
+
+fn bucket(place: IVec3, mask: usize) -> usize {
+    let hash = (place.x.wrapping_mul(73_856_093)) ^ (place.y.wrapping_mul(19_349_663)) ^ (place.z.wrapping_mul(83_492_791));
+    hash.unsigned_abs() as usize & mask
+}

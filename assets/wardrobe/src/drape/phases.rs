@@ -1,0 +1,205 @@
+//! From pieces in the air to a garment at rest.
+
+use amc_core::{Error, Progress, Result};
+use glam::DVec3;
+
+use super::layers::Layers;
+use super::model::Model;
+use super::solver::{Conditions, Energy, Solver, Thread};
+use super::{Draped, place};
+use crate::body::Body;
+use crate::cut::{At, CutGarment, JoinKind};
+
+/// How a garment is draped.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// How far the cloth keeps off the body, metres.
+    pub margin: f64,
+    /// How far layers keep off each other, metres; at most half a triangle's edge.
+    pub layer: f64,
+    /// Substep, seconds.
+    pub step: f64,
+    /// How long seams take to close, seconds of the cloth's time.
+    pub sewing: f64,
+    /// How long the cloth falls, at most, seconds.
+    pub falling: f64,
+    /// How long it may take to come to rest after that, seconds.
+    pub quieting: f64,
+    /// At rest no particle is faster, metres per second.
+    pub rest_speed: f64,
+    /// Metres per second squared.
+    pub gravity: f64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            margin: 0.0025,
+            layer: 0.0025,
+            step: 1.0 / 2400.0,
+            sewing: 0.6,
+            falling: 1.6,
+            quieting: 1.2,
+            rest_speed: 0.005,
+            gravity: 9.81,
+        }
+    }
+}
+
+/// How a garment came to rest.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Rest {
+    /// Substeps of the last level.
+    pub substeps: usize,
+    /// The fastest particle's speed at the end, metres per second.
+    pub fastest: f64,
+    /// Energies of the last level, from its start, every sixtieth of a second.
+    pub energies: Vec<Energy>,
+}
+
+impl Rest {
+    /// Whether the fastest particle is slow enough.
+    #[must_use]
+    pub fn is_still(&self, options: &Options) -> bool {
+        self.fastest <= options.rest_speed
+    }
+}
+
+/// A seam wider than this after sewing has not closed, metres.
+const CLOSED: f64 = 0.004;
+/// Between two looks at energies and speeds, seconds.
+const FRAME: f64 = 1.0 / 60.0;
+/// Drag of the air while sewing, falling and quieting, 1/seconds.
+const SEWING_DRAG: f64 = 10.0;
+const FALLING_DRAG: f64 = 2.5;
+const QUIETING_DRAG: f64 = 25.0;
+/// How much stretchier the cloth is while it is sewn.
+const SEWING_SOFTNESS: f64 = 20.0;
+/// Seconds in which gravity comes and softness goes after sewing.
+const SETTLING: f64 = 0.3;
+
+/// Places, sews and drapes.
+pub(super) fn sew_and_drape(garment: &CutGarment, body: &Body, options: &Options, progress: &Progress<'_>) -> Result<(Draped, Rest)> {
+    let placed = place::place(garment, body, options.margin)?;
+    let sewn = sew(garment, &placed, body, options, progress)?;
+    settle_and_drape(garment, &sewn, body, options, SEWING_SOFTNESS, progress)
+}
+
+/// Goes on from where a coarser cut came to rest.
+pub(super) fn relax(garment: &CutGarment, start: &[Vec<DVec3>], body: &Body, options: &Options, progress: &Progress<'_>) -> Result<(Draped, Rest)> {
+    let mut start = start.to_vec();
+    start.iter_mut().flatten().for_each(|place| place::push_out(place, body, options.margin));
+    let shorter = Options { falling: 0.35 * options.falling, ..options.clone() };
+    settle_and_drape(garment, &start, body, &shorter, 1.0, progress)
+}
+
+fn pairs(garment: &CutGarment, kind: JoinKind) -> impl Iterator<Item = (&str, At, At)> {
+    let joins = garment.joins.iter().filter(move |join| join.kind == kind);
+    joins.flat_map(|join| join.pairs.iter().map(|(one, other)| (join.name.as_str(), *one, *other)))
+}
+
+fn sewn_pairs(garment: &CutGarment) -> Vec<(At, At)> {
+    pairs(garment, JoinKind::Sewn).map(|(_, one, other)| (one, other)).collect()
+}
+
+fn layer(model: &Model, options: &Options) -> f64 {
+    options.layer.min(0.5 * model.edge_length)
+}
+
+/// Closes the seams: without weight, each seam's threads shorten to nothing in the same time.
+fn sew(garment: &CutGarment, placed: &[Vec<DVec3>], body: &Body, options: &Options, progress: &Progress<'_>) -> Result<Vec<Vec<DVec3>>> {
+    let pairs: Vec<_> = pairs(garment, JoinKind::Sewn).collect();
+    if pairs.is_empty() {
+        return Ok(placed.to_vec());
+    }
+    let model = Model::new(garment, &[]);
+    let welded = Model::new(garment, &sewn_pairs(garment));
+    let identity = welded.particle_of.iter().flatten().copied().collect();
+    let layers = Layers::new(&model, identity, layer(&model, options));
+    let mut solver = Solver::new(&model, body, &model.gather(placed), options.margin, layers, options.step);
+    let thread = |(_, one, other): &(&str, At, At)| {
+        let ends = [model.particle(*one), model.particle(*other)];
+        let length = solver.points.get(ends[0]).distance(solver.points.get(ends[1]));
+        Thread { ends, most: length }
+    };
+    let full: Vec<Thread> = pairs.iter().map(thread).collect();
+    let substeps = (options.sewing / options.step).ceil() as usize;
+    let conditions = Conditions { gravity: 0.0, drag: SEWING_DRAG, softness: SEWING_SOFTNESS };
+    for substep in 0..substeps + substeps / 4 {
+        let left = (1.0 - (substep + 1) as f64 / substeps as f64).max(0.0);
+        solver.threads = full.iter().map(|thread| Thread { most: thread.most * left, ..*thread }).collect();
+        solver.advance(conditions);
+        if substep % 64 == 0 {
+            progress.step("sewing", substep, substeps)?;
+        }
+    }
+    check(&solver)?;
+    for ((name, ..), thread) in pairs.iter().zip(&full) {
+        let gap = solver.points.get(thread.ends[0]).distance(solver.points.get(thread.ends[1]));
+        if !(gap <= CLOSED) {
+            let what = format!("the seam does not close: {:.1} mm stay open; place its pieces nearer to each other", gap * 1e3);
+            return Err(Error::invalid(what).at_element(format!("seam \"{name}\"")));
+        }
+    }
+    Ok(model.scatter(&solver.points.to_vec()))
+}
+
+/// Welds the seams and lets the garment fall until it is still.
+fn settle_and_drape(
+    garment: &CutGarment,
+    start: &[Vec<DVec3>],
+    body: &Body,
+    options: &Options,
+    softness: f64,
+    progress: &Progress<'_>,
+) -> Result<(Draped, Rest)> {
+    let model = Model::new(garment, &sewn_pairs(garment));
+    let thickness = layer(&model, options);
+    let layers = Layers::new(&model, (0..model.mass.len() as u32).collect(), thickness);
+    let mut solver = Solver::new(&model, body, &model.gather(start), options.margin, layers, options.step);
+    let buttons = pairs(garment, JoinKind::Layered).map(|(_, one, other)| [model.particle(one), model.particle(other)]);
+    solver.threads = buttons.map(|ends| Thread { ends, most: thickness }).collect();
+    let mut rest = Rest::default();
+    let gravity = options.gravity;
+    if softness > 1.0 {
+        let ramp = |share: f64| Conditions { gravity: gravity * share, drag: SEWING_DRAG, softness: softness.powf(1.0 - share) };
+        run(&mut solver, SETTLING, options, &mut rest, ramp, ("settling", progress))?;
+    }
+    let fall = |_| Conditions { gravity, drag: FALLING_DRAG, softness: 1.0 };
+    run(&mut solver, options.falling, options, &mut rest, fall, ("falling", progress))?;
+    let quiet = |_| Conditions { gravity, drag: QUIETING_DRAG, softness: 1.0 };
+    run(&mut solver, options.quieting, options, &mut rest, quiet, ("coming to rest", progress))?;
+    Ok((Draped { positions: model.scatter(&solver.points.to_vec()) }, rest))
+}
+
+fn check(solver: &Solver<'_>) -> Result<()> {
+    let what = "the cloth flew apart or fell off the body: look at its placement, its size and its stiffness";
+    if solver.blown_up { Err(Error::invalid(what)) } else { Ok(()) }
+}
+
+/// Runs a phase for `seconds`, or until the cloth is still.
+fn run(
+    solver: &mut Solver<'_>,
+    seconds: f64,
+    options: &Options,
+    rest: &mut Rest,
+    conditions: impl Fn(f64) -> Conditions,
+    (stage, progress): (&str, &Progress<'_>),
+) -> Result<()> {
+    let substeps = (seconds / options.step).ceil() as usize;
+    let frame = (FRAME / options.step).ceil() as usize;
+    for substep in 0..substeps {
+        solver.advance(conditions((substep + 1) as f64 / substeps as f64));
+        rest.substeps += 1;
+        if (substep + 1) % frame == 0 || substep + 1 == substeps {
+            progress.step(stage, substep + 1, substeps)?;
+            check(solver)?;
+            rest.fastest = solver.fastest();
+            rest.energies.push(solver.energy(options.gravity));
+            if rest.fastest <= options.rest_speed && substep > 4 * frame {
+                break;
+            }
+        }
+    }
+    Ok(())
+}
