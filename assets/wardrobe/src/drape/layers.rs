@@ -54,6 +54,8 @@ impl Owner {
 
 /// Side of a cell of the search, at least, in mean edges.
 const CELL_PER_EDGE: f64 = 1.2;
+/// Layers that are too near are pushed apart no faster, metres per second.
+const MOST_PUSH: f64 = 0.3;
 
 impl Layers {
     /// `sewn`: per particle, what it is once all seams are sewn: seams that are about to close do not repel each other.
@@ -145,8 +147,8 @@ impl Layers {
         Some(Pair::Edges { first, second, direction, apart: self.thickness })
     }
 
-    /// Keeps every pair apart. `before`: places at the step's start, for friction.
-    pub(super) fn solve(&self, points: &Points, before: &[DVec3], inverse_mass: &[f64], friction: f64) {
+    /// Keeps every pair apart. `before`: places at the step's start; `step`: seconds.
+    pub(super) fn solve(&self, points: &Points, before: &mut [DVec3], inverse_mass: &[f64], friction: f64, step: f64) {
         let touching = |pair: &&Pair| touch(pair, points).is_some();
         let active: Vec<&Pair> = if self.pairs.len() < 4096 {
             self.pairs.iter().filter(touching).collect()
@@ -155,7 +157,7 @@ impl Layers {
         };
         for pair in active {
             if let Some(touch) = touch(pair, points) {
-                touch.resolve(points, before, inverse_mass, friction);
+                touch.resolve(points, before, inverse_mass, friction, MOST_PUSH * step);
             }
         }
     }
@@ -170,21 +172,33 @@ struct Touch {
 }
 
 impl Touch {
-    /// Moves the four apart, then takes back sliding up to the friction's share (Mueller and others 2007; Macklin and others 2014, section 6.1).
-    fn resolve(&self, points: &Points, before: &[DVec3], inverse_mass: &[f64], friction: f64) {
+    /// Takes back what brought the four nearer in this step, pushes them apart by `most_push` at most, metres, and takes back
+    /// sliding up to the friction's share (Mueller and others 2007; Macklin and others 2014, section 6.1).
+    fn resolve(&self, points: &Points, before: &mut [DVec3], inverse_mass: &[f64], friction: f64, most_push: f64) {
         let w = self.particles.map(|particle| inverse_mass[particle as usize]);
         let weight: f64 = w.iter().zip(self.weights).map(|(w, a)| w * a * a).sum();
         if weight <= 0.0 {
             return;
         }
-        self.shift(points, &w, self.normal * (self.depth / weight));
-        let slid: DVec3 = (0..4).map(|i| (points.get(self.particles[i]) - before[self.particles[i] as usize]) * self.weights[i]).sum();
-        let slid = slid.reject_from_normalized(self.normal);
+        let moved = self.moved(points, before);
+        let nearer = (-moved.dot(self.normal)).clamp(0.0, self.depth);
+        let push = (self.depth - nearer).min(most_push);
+        self.shift(points, &w, self.normal * ((nearer + push) / weight));
+        // Being pushed apart is no motion to go on with.
+        for i in 0..4 {
+            before[self.particles[i] as usize] += self.normal * (push / weight * w[i] * self.weights[i]);
+        }
+        let slid = moved.reject_from_normalized(self.normal);
         let length = slid.length();
         if length > 0.0 {
-            let back = (friction * self.depth / length).min(1.0);
+            let back = (friction * (nearer + push) / length).min(1.0);
             self.shift(points, &w, slid * (-back / weight));
         }
+    }
+
+    /// How far the four moved against each other in this step.
+    fn moved(&self, points: &Points, before: &[DVec3]) -> DVec3 {
+        (0..4).map(|i| (points.get(self.particles[i]) - before[self.particles[i] as usize]) * self.weights[i]).sum()
     }
 
     fn shift(&self, points: &Points, w: &[f64; 4], by: DVec3) {

@@ -128,7 +128,7 @@ impl<'a> Solver<'a> {
         for thread in &self.threads {
             thread.solve(points, inverse_mass);
         }
-        self.layers.solve(points, &self.before, inverse_mass, self.model.friction);
+        self.layers.solve(points, &mut self.before, inverse_mass, self.model.friction, step);
         self.rest_on_body();
     }
 
