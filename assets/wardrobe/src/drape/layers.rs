@@ -3,7 +3,7 @@
 //! Pairs of a particle and a triangle, and of two edges, that are near each other are found once in a while, with the
 //! side on which they lie; until the next time they are kept apart on that side (Bridson, Fedkiw and Anderson 2002, sections 6 and 7).
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -15,8 +15,9 @@ use super::points::Points;
 /// What may touch before the next search.
 #[derive(Debug, Clone, Copy)]
 enum Pair {
-    /// A particle over a triangle: on the side of its normal where `side` is 1, else on the other.
-    Face { particle: u32, corners: [u32; 3], side: f64, apart: f64 },
+    /// A particle near a triangle: on the side of its normal where `side` is 1, else on the other; `over` where it was
+    /// above or below the triangle when it was found.
+    Face { particle: u32, corners: [u32; 3], side: f64, over: bool, apart: f64 },
     /// Two edges, the first lying in `direction` from the second.
     Edges { first: [u32; 2], second: [u32; 2], direction: DVec3, apart: f64 },
 }
@@ -30,7 +31,46 @@ pub(super) struct Layers {
     /// Per sewn particle, itself and those it shares a triangle with, sorted.
     neighbours: Vec<Vec<u32>>,
     thickness: f64,
+    /// Whether seams are still to close.
+    sewing: bool,
     pairs: Vec<Pair>,
+    crossed: Crossed,
+}
+
+/// Pairs that have got past each other although they were kept apart: they keep the sides that they had.
+#[derive(Debug, Default)]
+struct Crossed {
+    faces: HashMap<(u32, [u32; 3]), f64>,
+    edges: HashMap<([u32; 2], [u32; 2]), DVec3>,
+}
+
+impl Crossed {
+    fn new(pairs: &[Pair], points: &Points) -> Self {
+        let past = |pair: &&Pair| touch(pair, points).is_some_and(|touch| touch.depth > pair.apart());
+        let past: Vec<&Pair> = pairs.par_iter().with_min_len(1024).filter(past).collect();
+        let mut crossed = Self::default();
+        for pair in past {
+            match *pair {
+                Pair::Face { particle, corners, side, over: true, .. } => {
+                    crossed.faces.insert((particle, corners), side);
+                }
+                // It came in from beside the triangle: it may have gone round it.
+                Pair::Face { .. } => {}
+                Pair::Edges { first, second, direction, .. } => {
+                    crossed.edges.insert((first, second), direction);
+                }
+            }
+        }
+        crossed
+    }
+}
+
+impl Pair {
+    fn apart(&self) -> f64 {
+        match self {
+            Self::Face { apart, .. } | Self::Edges { apart, .. } => *apart,
+        }
+    }
 }
 
 /// A triangle, and which of its corners and edges are looked at with it: each is with one triangle only.
@@ -54,6 +94,8 @@ impl Owner {
 
 /// Side of a cell of the search, at least, in mean edges.
 const CELL_PER_EDGE: f64 = 1.2;
+/// The least distance that parts of one fold are kept apart, in thicknesses.
+const LEAST_APART: f64 = 0.2;
 /// Layers that are too near are pushed apart no faster, metres per second.
 const MOST_PUSH: f64 = 0.3;
 
@@ -81,11 +123,14 @@ impl Layers {
             list.sort_unstable();
             list.dedup();
         }
-        Self { triangles, sewn, neighbours, thickness, pairs: Vec::new() }
+        let sewing = sewn.iter().enumerate().any(|(particle, sewn)| particle as u32 != *sewn);
+        Self { triangles, sewn, neighbours, thickness, sewing, pairs: Vec::new(), crossed: Crossed::default() }
     }
 
     /// Finds all pairs that are within the thickness and `reach`, metres.
-    pub(super) fn search(&mut self, model: &Model, places: &[DVec3], reach: f64) {
+    pub(super) fn search(&mut self, model: &Model, points: &Points, reach: f64) {
+        self.crossed = Crossed::new(&self.pairs, points);
+        let places = &points.to_vec()[..];
         let range = self.thickness + reach;
         let cell = (CELL_PER_EDGE * model.edge_length).max(2.0 * range);
         let grow = DVec3::splat(0.5 * range);
@@ -107,9 +152,6 @@ impl Layers {
     }
 
     fn add_pairs(&self, one: &Owner, other: &Owner, places: &[DVec3], range: f64, pairs: &mut Vec<Pair>) {
-        if one.corners.iter().any(|corner| other.corners.contains(corner)) {
-            return;
-        }
         for (from, to) in [(one, other), (other, one)] {
             pairs.extend(from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range)));
         }
@@ -120,31 +162,53 @@ impl Layers {
 
     fn face(&self, particle: u32, corners: [u32; 3], places: &[DVec3], range: f64) -> Option<Pair> {
         let [a, b, c] = corners.map(|corner| places[corner as usize]);
+        let place = places[particle as usize];
         let normal = (b - a).cross(c - a).try_normalize()?;
-        let height = (places[particle as usize] - a).dot(normal);
-        if height.abs() > range || self.adjoin(particle, &corners) {
+        let height = (place - a).dot(normal);
+        if height.abs() > range || self.share(&[particle], &corners) {
             return None;
         }
-        let side = if height < 0.0 { -1.0 } else { 1.0 };
-        Some(Pair::Face { particle, corners, side, apart: self.thickness })
+        let apart = self.apart(&[particle], &corners, height.abs())?;
+        let found = if height < 0.0 { -1.0 } else { 1.0 };
+        let side = self.crossed.faces.get(&(particle, corners)).copied().unwrap_or(found);
+        let over = shares(place, [a, b, c]).is_some_and(|shares| shares.into_iter().all(|share| share >= 0.0));
+        Some(Pair::Face { particle, corners, side, over, apart })
     }
 
-    /// Whether a particle is, or shares a triangle with, one of those.
-    fn adjoin(&self, particle: u32, others: &[u32]) -> bool {
-        let near = &self.neighbours[self.sewn[particle as usize] as usize];
-        others.iter().any(|other| near.contains(&self.sewn[*other as usize]))
+    /// Whether some are the same particle once all is sewn.
+    fn share(&self, some: &[u32], others: &[u32]) -> bool {
+        let sewn = |particle: &u32| self.sewn[*particle as usize];
+        some.iter().any(|one| others.iter().any(|other| sewn(one) == sewn(other)))
+    }
+
+    /// How far to keep apart what is at `distance` now, metres. Where there is a triangle's edge between the two, cloth that is folded
+    /// is nearer than its thickness: it is only kept from getting nearer, and not at all from being sewn.
+    fn apart(&self, some: &[u32], others: &[u32], distance: f64) -> Option<f64> {
+        let adjoin = |one: &u32| {
+            let near = &self.neighbours[self.sewn[*one as usize] as usize];
+            others.iter().any(|other| near.contains(&self.sewn[*other as usize]))
+        };
+        if !some.iter().any(adjoin) {
+            return Some(self.thickness);
+        }
+        (!self.sewing).then(|| distance.clamp(LEAST_APART * self.thickness, self.thickness))
     }
 
     fn crossing(&self, first: [u32; 2], second: [u32; 2], places: &[DVec3], range: f64) -> Option<Pair> {
         let [a, b] = first.map(|end| places[end as usize]);
         let [c, d] = second.map(|end| places[end as usize]);
-        let (s, t) = nearest_on_edges(a, b, c, d)?;
-        let between = a.lerp(b, s) - c.lerp(d, t);
-        if between.length_squared() > range * range || self.adjoin(first[0], &second) || self.adjoin(first[1], &second) {
+        if (a.min(b) - DVec3::splat(range)).cmpgt(c.max(d)).any() || (a.max(b) + DVec3::splat(range)).cmplt(c.min(d)).any() {
             return None;
         }
-        let direction = between.try_normalize()?;
-        Some(Pair::Edges { first, second, direction, apart: self.thickness })
+        let (s, t) = nearest_on_edges(a, b, c, d)?;
+        let between = a.lerp(b, s) - c.lerp(d, t);
+        if between.length_squared() > range * range || self.share(&first, &second) {
+            return None;
+        }
+        let apart = self.apart(&first, &second, between.length())?;
+        let found = between.try_normalize()?;
+        let direction = self.crossed.edges.get(&(first, second)).copied().unwrap_or(found);
+        Some(Pair::Edges { first, second, direction, apart })
     }
 
     /// Keeps every pair apart. `before`: places at the step's start; `step`: seconds.
@@ -210,22 +274,15 @@ impl Touch {
 
 fn touch(pair: &Pair, points: &Points) -> Option<Touch> {
     match *pair {
-        Pair::Face { particle, corners, side, apart } => {
+        Pair::Face { particle, corners, side, apart, .. } => {
             let [a, b, c] = corners.map(|corner| points.get(corner));
             let place = points.get(particle);
-            let area = (b - a).cross(c - a);
-            let square = area.length_squared();
-            if square < 1e-20 {
-                return None;
-            }
-            let normal = area * (side / square.sqrt());
+            let normal = (b - a).cross(c - a).try_normalize()? * side;
             let depth = apart - (place - a).dot(normal);
             if depth <= 0.0 || depth > 2.0 * apart {
                 return None;
             }
-            let at_b = (place - a).cross(c - a).dot(area) / square;
-            let at_c = (b - a).cross(place - a).dot(area) / square;
-            let at_a = 1.0 - at_b - at_c;
+            let [at_a, at_b, at_c] = shares(place, [a, b, c])?;
             if at_a < 0.0 || at_b < 0.0 || at_c < 0.0 {
                 return None;
             }
@@ -252,6 +309,18 @@ fn touch(pair: &Pair, points: &Points) -> Option<Touch> {
             Some(Touch { particles, weights: [1.0 - s, s, t - 1.0, -t], normal, depth })
         }
     }
+}
+
+/// Barycentric coordinates of a place's projection on a triangle's plane.
+fn shares(place: DVec3, [a, b, c]: [DVec3; 3]) -> Option<[f64; 3]> {
+    let area = (b - a).cross(c - a);
+    let square = area.length_squared();
+    if square < 1e-20 {
+        return None;
+    }
+    let at_b = (place - a).cross(c - a).dot(area) / square;
+    let at_c = (b - a).cross(place - a).dot(area) / square;
+    Some([1.0 - at_b - at_c, at_b, at_c])
 }
 
 /// Where two edges are nearest, as shares of their lengths, if that is inside both.
