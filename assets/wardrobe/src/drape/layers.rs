@@ -163,12 +163,12 @@ impl Layers {
     fn face(&self, particle: u32, corners: [u32; 3], places: &[DVec3], range: f64) -> Option<Pair> {
         let [a, b, c] = corners.map(|corner| places[corner as usize]);
         let place = places[particle as usize];
-        let normal = (b - a).cross(c - a).try_normalize()?;
-        let height = (place - a).dot(normal);
-        if height.abs() > range || self.share(&[particle], &corners) {
+        let normal = (b - a).cross(c - a);
+        let (height, length2) = ((place - a).dot(normal), normal.length_squared());
+        if height * height > range * range * length2 || self.share(&[particle], &corners) {
             return None;
         }
-        let apart = self.apart(&[particle], &corners, height.abs())?;
+        let apart = self.apart(&[particle], &corners, height.abs() / length2.sqrt().max(1e-12))?;
         let found = if height < 0.0 { -1.0 } else { 1.0 };
         let side = self.crossed.faces.get(&(particle, corners)).copied().unwrap_or(found);
         let over = shares(place, [a, b, c]).is_some_and(|shares| shares.into_iter().all(|share| share >= 0.0));

@@ -18,9 +18,9 @@ const CHUNK: usize = 1024;
 const FREE_SUBSTEPS: f64 = 12.0;
 const LEAST_FREE_PATH: f64 = 0.04;
 const MOST_FREE_PATH: f64 = 0.25;
-const FARTHEST_FREE_PATH: f64 = 0.004;
+const FARTHEST_FREE_PATH: f64 = 0.006;
 /// No particle is faster, metres per second.
-const MOST_SPEED: f64 = 2.0;
+const MOST_SPEED: f64 = 1.5;
 /// A particle farther from the origin has been thrown out by a fault, metres.
 const FARTHEST: f64 = 50.0;
 
