@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::grid::CellGrid;
 use super::model::Model;
 use super::points::Points;
+use super::tangle::Tangle;
 
 /// What may touch before the next search.
 #[derive(Debug, Clone, Copy)]
@@ -33,8 +34,15 @@ pub(super) struct Layers {
     thickness: f64,
     /// Whether seams are still to close.
     sewing: bool,
-    pairs: Vec<Pair>,
+    near: Near,
     crossed: Crossed,
+}
+
+/// What a search finds.
+#[derive(Debug, Default)]
+struct Near {
+    pairs: Vec<Pair>,
+    tangles: Vec<Tangle>,
 }
 
 /// Pairs that have got past each other although they were kept apart: they keep the sides that they had.
@@ -62,6 +70,13 @@ impl Crossed {
             }
         }
         crossed
+    }
+
+    fn holds(&self, pair: &Pair) -> bool {
+        match pair {
+            Pair::Face { particle, corners, .. } => self.faces.contains_key(&(*particle, *corners)),
+            Pair::Edges { first, second, .. } => self.edges.contains_key(&(*first, *second)),
+        }
     }
 }
 
@@ -124,12 +139,12 @@ impl Layers {
             list.dedup();
         }
         let sewing = sewn.iter().enumerate().any(|(particle, sewn)| particle as u32 != *sewn);
-        Self { triangles, sewn, neighbours, thickness, sewing, pairs: Vec::new(), crossed: Crossed::default() }
+        Self { triangles, sewn, neighbours, thickness, sewing, near: Near::default(), crossed: Crossed::default() }
     }
 
     /// Finds all pairs that are within the thickness and `reach`, metres.
     pub(super) fn search(&mut self, model: &Model, points: &Points, reach: f64) {
-        self.crossed = Crossed::new(&self.pairs, points);
+        self.crossed = Crossed::new(&self.near.pairs, points);
         let places = &points.to_vec()[..];
         let range = self.thickness + reach;
         let cell = (CELL_PER_EDGE * model.edge_length).max(2.0 * range);
@@ -142,27 +157,43 @@ impl Layers {
         let grid = CellGrid::new(&boxes, cell);
         let this = &*self;
         let of_triangle = |index: usize| {
-            let mut pairs = Vec::new();
+            let mut near = Near::default();
             for other in grid.overlapping(index as u32, &boxes) {
-                this.add_pairs(&this.triangles[index], &this.triangles[other as usize], places, range, &mut pairs);
+                this.add(&this.triangles[index], &this.triangles[other as usize], places, range, &mut near);
             }
-            pairs
+            near
         };
-        self.pairs = (0..self.triangles.len()).into_par_iter().with_min_len(256).flat_map_iter(of_triangle).collect();
+        let found: Vec<Near> = (0..self.triangles.len()).into_par_iter().with_min_len(256).map(of_triangle).collect();
+        self.near = Near::default();
+        for near in found {
+            self.near.pairs.extend(near.pairs);
+            self.near.tangles.extend(near.tangles);
+        }
     }
 
-    fn add_pairs(&self, one: &Owner, other: &Owner, places: &[DVec3], range: f64, pairs: &mut Vec<Pair>) {
-        for (from, to) in [(one, other), (other, one)] {
-            pairs.extend(from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range)));
+    fn add(&self, one: &Owner, other: &Owner, places: &[DVec3], range: f64, near: &mut Near) {
+        let mut tangled = false;
+        if !one.corners.iter().any(|corner| other.corners.contains(corner)) {
+            let before = near.tangles.len();
+            near.tangles.extend(
+                Tangle::between(&one.corners, &other.corners, places).chain(Tangle::between(&other.corners, &one.corners, places)),
+            );
+            tangled = near.tangles.len() > before;
         }
-        for first in one.own_edges() {
-            pairs.extend(other.own_edges().filter_map(|second| self.crossing(first, second, places, range)));
-        }
+        let faces = [(one, other), (other, one)].into_iter();
+        let faces = faces.flat_map(|(from, to)| from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range)));
+        let edges = one.own_edges().flat_map(|first| other.own_edges().filter_map(move |second| self.crossing(first, second, places, range)));
+        // Where two triangles have gone through each other, who does not know its side from before does not know it now:
+        // holding it there would only pull the tangle tighter.
+        near.pairs.extend(faces.chain(edges).filter(|pair| !tangled || self.crossed.holds(pair)));
     }
 
     fn face(&self, particle: u32, corners: [u32; 3], places: &[DVec3], range: f64) -> Option<Pair> {
         let [a, b, c] = corners.map(|corner| places[corner as usize]);
-        let place = places[particle as usize];
+        let (place, grow) = (places[particle as usize], DVec3::splat(range));
+        if place.cmplt(a.min(b).min(c) - grow).any() || place.cmpgt(a.max(b).max(c) + grow).any() {
+            return None;
+        }
         let normal = (b - a).cross(c - a);
         let (height, length2) = ((place - a).dot(normal), normal.length_squared());
         if height * height > range * range * length2 || self.share(&[particle], &corners) {
@@ -211,13 +242,23 @@ impl Layers {
         Some(Pair::Edges { first, second, direction, apart })
     }
 
+    /// Whether the cloth was found to go through itself.
+    pub(super) fn tangled(&self) -> bool {
+        !self.near.tangles.is_empty()
+    }
+
+    /// Draws apart what has gone through itself; `step` in seconds.
+    pub(super) fn untangle(&self, points: &Points, inverse_mass: &[f64], step: f64) {
+        self.near.tangles.iter().for_each(|tangle| tangle.pull(points, inverse_mass, step));
+    }
+
     /// Keeps every pair apart. `before`: places at the step's start; `step`: seconds.
     pub(super) fn solve(&self, points: &Points, before: &mut [DVec3], inverse_mass: &[f64], friction: f64, step: f64) {
         let touching = |pair: &&Pair| touch(pair, points).is_some();
-        let active: Vec<&Pair> = if self.pairs.len() < 4096 {
-            self.pairs.iter().filter(touching).collect()
+        let active: Vec<&Pair> = if self.near.pairs.len() < 4096 {
+            self.near.pairs.iter().filter(touching).collect()
         } else {
-            self.pairs.par_iter().with_min_len(1024).filter(touching).collect()
+            self.near.pairs.par_iter().with_min_len(1024).filter(touching).collect()
         };
         for pair in active {
             if let Some(touch) = touch(pair, points) {

