@@ -139,7 +139,15 @@ impl Layers {
             list.dedup();
         }
         let sewing = sewn.iter().enumerate().any(|(particle, sewn)| particle as u32 != *sewn);
-        Self { triangles, sewn, neighbours, thickness, sewing, near: Near::default(), crossed: Crossed::default() }
+        Self {
+            triangles,
+            sewn,
+            neighbours,
+            thickness,
+            sewing,
+            near: Near::default(),
+            crossed: Crossed::default(),
+        }
     }
 
     /// Finds all pairs that are within the thickness and `reach`, metres.
@@ -163,7 +171,8 @@ impl Layers {
             }
             near
         };
-        let found: Vec<Near> = (0..self.triangles.len()).into_par_iter().with_min_len(256).map(of_triangle).collect();
+        let found: Vec<Near> =
+            (0..self.triangles.len()).into_par_iter().with_min_len(256).map(of_triangle).collect();
         self.near = Near::default();
         for near in found {
             self.near.pairs.extend(near.pairs);
@@ -176,13 +185,21 @@ impl Layers {
         if !one.corners.iter().any(|corner| other.corners.contains(corner)) {
             let before = near.tangles.len();
             near.tangles.extend(
-                Tangle::between(&one.corners, &other.corners, places).chain(Tangle::between(&other.corners, &one.corners, places)),
+                Tangle::between(&one.corners, &other.corners, places).chain(Tangle::between(
+                    &other.corners,
+                    &one.corners,
+                    places,
+                )),
             );
             tangled = near.tangles.len() > before;
         }
         let faces = [(one, other), (other, one)].into_iter();
-        let faces = faces.flat_map(|(from, to)| from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range)));
-        let edges = one.own_edges().flat_map(|first| other.own_edges().filter_map(move |second| self.crossing(first, second, places, range)));
+        let faces = faces.flat_map(|(from, to)| {
+            from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range))
+        });
+        let edges = one.own_edges().flat_map(|first| {
+            other.own_edges().filter_map(move |second| self.crossing(first, second, places, range))
+        });
         // Where two triangles have gone through each other, who does not know its side from before does not know it now:
         // holding it there would only pull the tangle tighter.
         near.pairs.extend(faces.chain(edges).filter(|pair| !tangled || self.crossed.holds(pair)));
@@ -202,7 +219,8 @@ impl Layers {
         let apart = self.apart(&[particle], &corners, height.abs() / length2.sqrt().max(1e-12))?;
         let found = if height < 0.0 { -1.0 } else { 1.0 };
         let side = self.crossed.faces.get(&(particle, corners)).copied().unwrap_or(found);
-        let over = shares(place, [a, b, c]).is_some_and(|shares| shares.into_iter().all(|share| share >= 0.0));
+        let over =
+            shares(place, [a, b, c]).is_some_and(|shares| shares.into_iter().all(|share| share >= 0.0));
         Some(Pair::Face { particle, corners, side, over, apart })
     }
 
@@ -228,7 +246,9 @@ impl Layers {
     fn crossing(&self, first: [u32; 2], second: [u32; 2], places: &[DVec3], range: f64) -> Option<Pair> {
         let [a, b] = first.map(|end| places[end as usize]);
         let [c, d] = second.map(|end| places[end as usize]);
-        if (a.min(b) - DVec3::splat(range)).cmpgt(c.max(d)).any() || (a.max(b) + DVec3::splat(range)).cmplt(c.min(d)).any() {
+        if (a.min(b) - DVec3::splat(range)).cmpgt(c.max(d)).any()
+            || (a.max(b) + DVec3::splat(range)).cmplt(c.min(d)).any()
+        {
             return None;
         }
         let (s, t) = nearest_on_edges(a, b, c, d)?;
@@ -253,7 +273,14 @@ impl Layers {
     }
 
     /// Keeps every pair apart. `before`: places at the step's start; `step`: seconds.
-    pub(super) fn solve(&self, points: &Points, before: &mut [DVec3], inverse_mass: &[f64], friction: f64, step: f64) {
+    pub(super) fn solve(
+        &self,
+        points: &Points,
+        before: &mut [DVec3],
+        inverse_mass: &[f64],
+        friction: f64,
+        step: f64,
+    ) {
         let touching = |pair: &&Pair| touch(pair, points).is_some();
         let active: Vec<&Pair> = if self.near.pairs.len() < 4096 {
             self.near.pairs.iter().filter(touching).collect()
@@ -279,7 +306,14 @@ struct Touch {
 impl Touch {
     /// Takes back what brought the four nearer in this step, pushes them apart by `most_push` at most, metres, and takes back
     /// sliding up to the friction's share (Mueller and others 2007; Macklin and others 2014, section 6.1).
-    fn resolve(&self, points: &Points, before: &mut [DVec3], inverse_mass: &[f64], friction: f64, most_push: f64) {
+    fn resolve(
+        &self,
+        points: &Points,
+        before: &mut [DVec3],
+        inverse_mass: &[f64],
+        friction: f64,
+        most_push: f64,
+    ) {
         let w = self.particles.map(|particle| inverse_mass[particle as usize]);
         let weight: f64 = w.iter().zip(self.weights).map(|(w, a)| w * a * a).sum();
         if weight <= 0.0 {
@@ -303,12 +337,14 @@ impl Touch {
 
     /// How far the four moved against each other in this step.
     fn moved(&self, points: &Points, before: &[DVec3]) -> DVec3 {
-        (0..4).map(|i| (points.get(self.particles[i]) - before[self.particles[i] as usize]) * self.weights[i]).sum()
+        (0..4)
+            .map(|i| (points.get(self.particles[i]) - before[self.particles[i] as usize]) * self.weights[i])
+            .sum()
     }
 
     fn shift(&self, points: &Points, w: &[f64; 4], by: DVec3) {
-        for i in 0..4 {
-            points.shift(self.particles[i], by * (w[i] * self.weights[i]));
+        for ((particle, weight), w) in self.particles.iter().zip(self.weights).zip(w) {
+            points.shift(*particle, by * (w * weight));
         }
     }
 }
@@ -342,7 +378,11 @@ fn touch(pair: &Pair, points: &Points) -> Option<Touch> {
             let between = a.lerp(b, s) - c.lerp(d, t);
             let length = between.length();
             let upright = between.dot(direction);
-            let (normal, depth) = if length < 1e-9 || upright < 0.0 { (direction, apart - upright) } else { (between / length, apart - length) };
+            let (normal, depth) = if length < 1e-9 || upright < 0.0 {
+                (direction, apart - upright)
+            } else {
+                (between / length, apart - length)
+            };
             if depth <= 0.0 || depth > 2.0 * apart {
                 return None;
             }

@@ -87,14 +87,25 @@ const SEWING_SOFTNESS: f64 = 20.0;
 const SETTLING: f64 = 0.3;
 
 /// Places, sews and drapes.
-pub(super) fn sew_and_drape(garment: &CutGarment, body: &Body, options: &Options, progress: &Progress<'_>) -> Result<(Draped, Rest)> {
+pub(super) fn sew_and_drape(
+    garment: &CutGarment,
+    body: &Body,
+    options: &Options,
+    progress: &Progress<'_>,
+) -> Result<(Draped, Rest)> {
     let placed = place::place(garment, body, options.margin)?;
     let sewn = sew(garment, &placed, body, options, progress)?;
     settle_and_drape(garment, &sewn, body, options, SEWING_SOFTNESS, progress)
 }
 
 /// Goes on from where a coarser cut came to rest.
-pub(super) fn relax(garment: &CutGarment, start: &[Vec<DVec3>], body: &Body, options: &Options, progress: &Progress<'_>) -> Result<(Draped, Rest)> {
+pub(super) fn relax(
+    garment: &CutGarment,
+    start: &[Vec<DVec3>],
+    body: &Body,
+    options: &Options,
+    progress: &Progress<'_>,
+) -> Result<(Draped, Rest)> {
     let mut start = start.to_vec();
     start.iter_mut().flatten().for_each(|place| place::push_out(place, body, options.margin));
     settle_and_drape(garment, &start, body, options, 1.0, progress)
@@ -114,7 +125,13 @@ fn layer(model: &Model, options: &Options) -> f64 {
 }
 
 /// Closes the seams: without weight, each seam's threads shorten to nothing in the same time.
-fn sew(garment: &CutGarment, placed: &[Vec<DVec3>], body: &Body, options: &Options, progress: &Progress<'_>) -> Result<Vec<Vec<DVec3>>> {
+fn sew(
+    garment: &CutGarment,
+    placed: &[Vec<DVec3>],
+    body: &Body,
+    options: &Options,
+    progress: &Progress<'_>,
+) -> Result<Vec<Vec<DVec3>>> {
     let pairs: Vec<_> = pairs(garment, JoinKind::Sewn).collect();
     if pairs.is_empty() {
         return Ok(placed.to_vec());
@@ -123,7 +140,14 @@ fn sew(garment: &CutGarment, placed: &[Vec<DVec3>], body: &Body, options: &Optio
     let welded = Model::new(garment, &sewn_pairs(garment));
     let identity = welded.particle_of.iter().flatten().copied().collect();
     let layers = Layers::new(&model, identity, layer(&model, options));
-    let mut solver = Solver::new(&model, body, &model.gather(placed), options.margin, layers, options.step * model.edge_length);
+    let mut solver = Solver::new(
+        &model,
+        body,
+        &model.gather(placed),
+        options.margin,
+        layers,
+        options.step * model.edge_length,
+    );
     let thread = |(_, one, other): &(&str, At, At)| {
         let ends = [model.particle(*one), model.particle(*other)];
         let length = solver.points.get(ends[0]).distance(solver.points.get(ends[1]));
@@ -143,8 +167,11 @@ fn sew(garment: &CutGarment, placed: &[Vec<DVec3>], body: &Body, options: &Optio
     check(&solver)?;
     for ((name, ..), thread) in pairs.iter().zip(&full) {
         let gap = solver.points.get(thread.ends[0]).distance(solver.points.get(thread.ends[1]));
-        if !(gap <= CLOSED) {
-            let what = format!("the seam does not close: {:.1} mm stay open; place its pieces nearer to each other", gap * 1e3);
+        if gap.is_nan() || gap > CLOSED {
+            let what = format!(
+                "the seam does not close: {:.1} mm stay open; place its pieces nearer to each other",
+                gap * 1e3
+            );
             return Err(Error::invalid(what).at_element(format!("seam \"{name}\"")));
         }
     }
@@ -163,17 +190,33 @@ fn settle_and_drape(
     let model = Model::new(garment, &sewn_pairs(garment));
     let thickness = layer(&model, options);
     let layers = Layers::new(&model, (0..model.mass.len() as u32).collect(), thickness);
-    let mut solver = Solver::new(&model, body, &model.gather(start), options.margin, layers, options.step * model.edge_length);
-    let buttons = pairs(garment, JoinKind::Layered).map(|(_, one, other)| [model.particle(one), model.particle(other)]);
+    let mut solver = Solver::new(
+        &model,
+        body,
+        &model.gather(start),
+        options.margin,
+        layers,
+        options.step * model.edge_length,
+    );
+    let buttons =
+        pairs(garment, JoinKind::Layered).map(|(_, one, other)| [model.particle(one), model.particle(other)]);
     solver.threads = buttons.map(|ends| Thread { ends, most: thickness }).collect();
     let mut rest = Rest::default();
     let gravity = options.gravity;
     let coarsest = softness > 1.0;
     if coarsest {
-        let ramp = |share: f64| Conditions { gravity: gravity * share, drag: SEWING_DRAG, softness: softness.powf(1.0 - share) };
+        let ramp = |share: f64| Conditions {
+            gravity: gravity * share,
+            drag: SEWING_DRAG,
+            softness: softness.powf(1.0 - share),
+        };
         run(&mut solver, SETTLING, options, &mut rest, ramp, ("settling", progress))?;
     }
-    let [falling, quieting] = if coarsest { [options.falling, options.quieting] } else { options.relaxing.map(|time| time * model.edge_length) };
+    let [falling, quieting] = if coarsest {
+        [options.falling, options.quieting]
+    } else {
+        options.relaxing.map(|time| time * model.edge_length)
+    };
     let almost_still = Options { rest_speed: 4.0 * options.rest_speed, ..options.clone() };
     let drag = if coarsest { FALLING_DRAG } else { RELAXING_DRAG };
     let fall = |_| Conditions { gravity, drag, softness: 1.0 };
