@@ -3,7 +3,7 @@
 //! Pairs of a particle and a triangle, and of two edges, that are near each other are found once in a while, with the
 //! side on which they lie; until the next time they are kept apart on that side (Bridson, Fedkiw and Anderson 2002, sections 6 and 7).
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -16,8 +16,9 @@ use super::tangle::Tangle;
 /// What may touch before the next search.
 #[derive(Debug, Clone, Copy)]
 enum Pair {
-    /// A particle over a triangle: on the side of its normal where `side` is 1, else on the other.
-    Face { particle: u32, corners: [u32; 3], side: f64, apart: f64 },
+    /// A particle near a triangle: on the side of its normal where `side` is 1, else on the other; `over` where it was
+    /// above or below the triangle when it was found.
+    Face { particle: u32, corners: [u32; 3], side: f64, over: bool, apart: f64 },
     /// Two edges, the first lying in `direction` from the second.
     Edges { first: [u32; 2], second: [u32; 2], direction: DVec3, apart: f64 },
 }
@@ -31,7 +32,10 @@ pub(super) struct Layers {
     /// Per sewn particle, itself and those it shares a triangle with, sorted.
     neighbours: Vec<Vec<u32>>,
     thickness: f64,
+    /// Whether seams are still to close.
+    sewing: bool,
     near: Near,
+    crossed: Crossed,
 }
 
 /// What a search finds.
@@ -39,6 +43,49 @@ pub(super) struct Layers {
 struct Near {
     pairs: Vec<Pair>,
     tangles: Vec<Tangle>,
+}
+
+/// Pairs that have got past each other although they were kept apart: they keep the sides that they had.
+#[derive(Debug, Default)]
+struct Crossed {
+    faces: HashMap<(u32, [u32; 3]), f64>,
+    edges: HashMap<([u32; 2], [u32; 2]), DVec3>,
+}
+
+impl Crossed {
+    fn new(pairs: &[Pair], points: &Points) -> Self {
+        let past = |pair: &&Pair| touch(pair, points).is_some_and(|touch| touch.depth > pair.apart());
+        let past: Vec<&Pair> = pairs.par_iter().with_min_len(1024).filter(past).collect();
+        let mut crossed = Self::default();
+        for pair in past {
+            match *pair {
+                Pair::Face { particle, corners, side, over: true, .. } => {
+                    crossed.faces.insert((particle, corners), side);
+                }
+                // It came in from beside the triangle: it may have gone round it.
+                Pair::Face { .. } => {}
+                Pair::Edges { first, second, direction, .. } => {
+                    crossed.edges.insert((first, second), direction);
+                }
+            }
+        }
+        crossed
+    }
+
+    fn holds(&self, pair: &Pair) -> bool {
+        match pair {
+            Pair::Face { particle, corners, .. } => self.faces.contains_key(&(*particle, *corners)),
+            Pair::Edges { first, second, .. } => self.edges.contains_key(&(*first, *second)),
+        }
+    }
+}
+
+impl Pair {
+    fn apart(&self) -> f64 {
+        match self {
+            Self::Face { apart, .. } | Self::Edges { apart, .. } => *apart,
+        }
+    }
 }
 
 /// A triangle, and which of its corners and edges are looked at with it: each is with one triangle only.
@@ -62,6 +109,10 @@ impl Owner {
 
 /// Side of a cell of the search, at least, in mean edges.
 const CELL_PER_EDGE: f64 = 1.2;
+/// The least distance that parts of one fold are kept apart, in thicknesses.
+const LEAST_APART: f64 = 0.2;
+/// Layers that are too near are pushed apart no faster, metres per second.
+const MOST_PUSH: f64 = 0.3;
 
 impl Layers {
     /// `sewn`: per particle, what it is once all seams are sewn: seams that are about to close do not repel each other.
@@ -87,11 +138,22 @@ impl Layers {
             list.sort_unstable();
             list.dedup();
         }
-        Self { triangles, sewn, neighbours, thickness, near: Near::default() }
+        let sewing = sewn.iter().enumerate().any(|(particle, sewn)| particle as u32 != *sewn);
+        Self {
+            triangles,
+            sewn,
+            neighbours,
+            thickness,
+            sewing,
+            near: Near::default(),
+            crossed: Crossed::default(),
+        }
     }
 
     /// Finds all pairs that are within the thickness and `reach`, metres.
-    pub(super) fn search(&mut self, model: &Model, places: &[DVec3], reach: f64) {
+    pub(super) fn search(&mut self, model: &Model, points: &Points, reach: f64) {
+        self.crossed = Crossed::new(&self.near.pairs, points);
+        let places = &points.to_vec()[..];
         let range = self.thickness + reach;
         let cell = (CELL_PER_EDGE * model.edge_length).max(2.0 * range);
         let grow = DVec3::splat(0.5 * range);
@@ -119,29 +181,28 @@ impl Layers {
     }
 
     fn add(&self, one: &Owner, other: &Owner, places: &[DVec3], range: f64, near: &mut Near) {
-        if one.corners.iter().any(|corner| other.corners.contains(corner)) {
-            return;
-        }
-        // Where two triangles have gone through each other neither knows its side any more: holding them there would only pull
-        // the tangle tighter.
-        let before = near.tangles.len();
-        near.tangles.extend(Tangle::between(&one.corners, &other.corners, places).chain(Tangle::between(
-            &other.corners,
-            &one.corners,
-            places,
-        )));
-        if near.tangles.len() > before {
-            return;
-        }
-        for (from, to) in [(one, other), (other, one)] {
-            near.pairs.extend(
-                from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range)),
+        let mut tangled = false;
+        if !one.corners.iter().any(|corner| other.corners.contains(corner)) {
+            let before = near.tangles.len();
+            near.tangles.extend(
+                Tangle::between(&one.corners, &other.corners, places).chain(Tangle::between(
+                    &other.corners,
+                    &one.corners,
+                    places,
+                )),
             );
+            tangled = near.tangles.len() > before;
         }
-        for first in one.own_edges() {
-            near.pairs
-                .extend(other.own_edges().filter_map(|second| self.crossing(first, second, places, range)));
-        }
+        let faces = [(one, other), (other, one)].into_iter();
+        let faces = faces.flat_map(|(from, to)| {
+            from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range))
+        });
+        let edges = one.own_edges().flat_map(|first| {
+            other.own_edges().filter_map(move |second| self.crossing(first, second, places, range))
+        });
+        // Where two triangles have gone through each other, who does not know its side from before does not know it now:
+        // holding it there would only pull the tangle tighter.
+        near.pairs.extend(faces.chain(edges).filter(|pair| !tangled || self.crossed.holds(pair)));
     }
 
     fn face(&self, particle: u32, corners: [u32; 3], places: &[DVec3], range: f64) -> Option<Pair> {
@@ -151,18 +212,35 @@ impl Layers {
             return None;
         }
         let normal = (b - a).cross(c - a);
-        let height = (place - a).dot(normal);
-        if height * height > range * range * normal.length_squared() || self.adjoin(particle, &corners) {
+        let (height, length2) = ((place - a).dot(normal), normal.length_squared());
+        if height * height > range * range * length2 || self.share(&[particle], &corners) {
             return None;
         }
-        let side = if height < 0.0 { -1.0 } else { 1.0 };
-        Some(Pair::Face { particle, corners, side, apart: self.thickness })
+        let apart = self.apart(&[particle], &corners, height.abs() / length2.sqrt().max(1e-12))?;
+        let found = if height < 0.0 { -1.0 } else { 1.0 };
+        let side = self.crossed.faces.get(&(particle, corners)).copied().unwrap_or(found);
+        let over =
+            shares(place, [a, b, c]).is_some_and(|shares| shares.into_iter().all(|share| share >= 0.0));
+        Some(Pair::Face { particle, corners, side, over, apart })
     }
 
-    /// Whether a particle is, or shares a triangle with, one of those.
-    fn adjoin(&self, particle: u32, others: &[u32]) -> bool {
-        let near = &self.neighbours[self.sewn[particle as usize] as usize];
-        others.iter().any(|other| near.contains(&self.sewn[*other as usize]))
+    /// Whether some are the same particle once all is sewn.
+    fn share(&self, some: &[u32], others: &[u32]) -> bool {
+        let sewn = |particle: &u32| self.sewn[*particle as usize];
+        some.iter().any(|one| others.iter().any(|other| sewn(one) == sewn(other)))
+    }
+
+    /// How far to keep apart what is at `distance` now, metres. Where there is a triangle's edge between the two, cloth that is folded
+    /// is nearer than its thickness: it is only kept from getting nearer, and not at all from being sewn.
+    fn apart(&self, some: &[u32], others: &[u32], distance: f64) -> Option<f64> {
+        let adjoin = |one: &u32| {
+            let near = &self.neighbours[self.sewn[*one as usize] as usize];
+            others.iter().any(|other| near.contains(&self.sewn[*other as usize]))
+        };
+        if !some.iter().any(adjoin) {
+            return Some(self.thickness);
+        }
+        (!self.sewing).then(|| distance.clamp(LEAST_APART * self.thickness, self.thickness))
     }
 
     fn crossing(&self, first: [u32; 2], second: [u32; 2], places: &[DVec3], range: f64) -> Option<Pair> {
@@ -175,14 +253,13 @@ impl Layers {
         }
         let (s, t) = nearest_on_edges(a, b, c, d)?;
         let between = a.lerp(b, s) - c.lerp(d, t);
-        if between.length_squared() > range * range
-            || self.adjoin(first[0], &second)
-            || self.adjoin(first[1], &second)
-        {
+        if between.length_squared() > range * range || self.share(&first, &second) {
             return None;
         }
-        let direction = between.try_normalize()?;
-        Some(Pair::Edges { first, second, direction, apart: self.thickness })
+        let apart = self.apart(&first, &second, between.length())?;
+        let found = between.try_normalize()?;
+        let direction = self.crossed.edges.get(&(first, second)).copied().unwrap_or(found);
+        Some(Pair::Edges { first, second, direction, apart })
     }
 
     /// Whether the cloth was found to go through itself.
@@ -195,8 +272,15 @@ impl Layers {
         self.near.tangles.iter().for_each(|tangle| tangle.pull(points, inverse_mass, step));
     }
 
-    /// Keeps every pair apart. `before`: places at the step's start, for friction.
-    pub(super) fn solve(&self, points: &Points, before: &[DVec3], inverse_mass: &[f64], friction: f64) {
+    /// Keeps every pair apart. `before`: places at the step's start; `step`: seconds.
+    pub(super) fn solve(
+        &self,
+        points: &Points,
+        before: &mut [DVec3],
+        inverse_mass: &[f64],
+        friction: f64,
+        step: f64,
+    ) {
         let touching = |pair: &&Pair| touch(pair, points).is_some();
         let active: Vec<&Pair> = if self.near.pairs.len() < 4096 {
             self.near.pairs.iter().filter(touching).collect()
@@ -205,7 +289,7 @@ impl Layers {
         };
         for pair in active {
             if let Some(touch) = touch(pair, points) {
-                touch.resolve(points, before, inverse_mass, friction);
+                touch.resolve(points, before, inverse_mass, friction, MOST_PUSH * step);
             }
         }
     }
@@ -220,23 +304,42 @@ struct Touch {
 }
 
 impl Touch {
-    /// Moves the four apart, then takes back sliding up to the friction's share (Mueller and others 2007; Macklin and others 2014, section 6.1).
-    fn resolve(&self, points: &Points, before: &[DVec3], inverse_mass: &[f64], friction: f64) {
+    /// Takes back what brought the four nearer in this step, pushes them apart by `most_push` at most, metres, and takes back
+    /// sliding up to the friction's share (Mueller and others 2007; Macklin and others 2014, section 6.1).
+    fn resolve(
+        &self,
+        points: &Points,
+        before: &mut [DVec3],
+        inverse_mass: &[f64],
+        friction: f64,
+        most_push: f64,
+    ) {
         let w = self.particles.map(|particle| inverse_mass[particle as usize]);
         let weight: f64 = w.iter().zip(self.weights).map(|(w, a)| w * a * a).sum();
         if weight <= 0.0 {
             return;
         }
-        self.shift(points, &w, self.normal * (self.depth / weight));
-        let slid: DVec3 = (0..4)
-            .map(|i| (points.get(self.particles[i]) - before[self.particles[i] as usize]) * self.weights[i])
-            .sum();
-        let slid = slid.reject_from_normalized(self.normal);
+        let moved = self.moved(points, before);
+        let nearer = (-moved.dot(self.normal)).clamp(0.0, self.depth);
+        let push = (self.depth - nearer).min(most_push);
+        self.shift(points, &w, self.normal * ((nearer + push) / weight));
+        // Being pushed apart is no motion to go on with.
+        for i in 0..4 {
+            before[self.particles[i] as usize] += self.normal * (push / weight * w[i] * self.weights[i]);
+        }
+        let slid = moved.reject_from_normalized(self.normal);
         let length = slid.length();
         if length > 0.0 {
-            let back = (friction * self.depth / length).min(1.0);
+            let back = (friction * (nearer + push) / length).min(1.0);
             self.shift(points, &w, slid * (-back / weight));
         }
+    }
+
+    /// How far the four moved against each other in this step.
+    fn moved(&self, points: &Points, before: &[DVec3]) -> DVec3 {
+        (0..4)
+            .map(|i| (points.get(self.particles[i]) - before[self.particles[i] as usize]) * self.weights[i])
+            .sum()
     }
 
     fn shift(&self, points: &Points, w: &[f64; 4], by: DVec3) {
@@ -248,22 +351,15 @@ impl Touch {
 
 fn touch(pair: &Pair, points: &Points) -> Option<Touch> {
     match *pair {
-        Pair::Face { particle, corners, side, apart } => {
+        Pair::Face { particle, corners, side, apart, .. } => {
             let [a, b, c] = corners.map(|corner| points.get(corner));
             let place = points.get(particle);
-            let area = (b - a).cross(c - a);
-            let square = area.length_squared();
-            if square < 1e-20 {
-                return None;
-            }
-            let normal = area * (side / square.sqrt());
+            let normal = (b - a).cross(c - a).try_normalize()? * side;
             let depth = apart - (place - a).dot(normal);
             if depth <= 0.0 || depth > 2.0 * apart {
                 return None;
             }
-            let at_b = (place - a).cross(c - a).dot(area) / square;
-            let at_c = (b - a).cross(place - a).dot(area) / square;
-            let at_a = 1.0 - at_b - at_c;
+            let [at_a, at_b, at_c] = shares(place, [a, b, c])?;
             if at_a < 0.0 || at_b < 0.0 || at_c < 0.0 {
                 return None;
             }
@@ -294,6 +390,18 @@ fn touch(pair: &Pair, points: &Points) -> Option<Touch> {
             Some(Touch { particles, weights: [1.0 - s, s, t - 1.0, -t], normal, depth })
         }
     }
+}
+
+/// Barycentric coordinates of a place's projection on a triangle's plane.
+fn shares(place: DVec3, [a, b, c]: [DVec3; 3]) -> Option<[f64; 3]> {
+    let area = (b - a).cross(c - a);
+    let square = area.length_squared();
+    if square < 1e-20 {
+        return None;
+    }
+    let at_b = (place - a).cross(c - a).dot(area) / square;
+    let at_c = (b - a).cross(place - a).dot(area) / square;
+    Some([1.0 - at_b - at_c, at_b, at_c])
 }
 
 /// Where two edges are nearest, as shares of their lengths, if that is inside both.

@@ -143,7 +143,7 @@ impl<'a> Solver<'a> {
             thread.solve(points, inverse_mass);
         }
         self.layers.untangle(points, inverse_mass, step);
-        self.layers.solve(points, &self.before, inverse_mass, self.model.friction);
+        self.layers.solve(points, &mut self.before, inverse_mass, self.model.friction, step);
         self.rest_on_body();
     }
 
@@ -195,7 +195,7 @@ impl<'a> Solver<'a> {
             (distance < reach).then(|| Plane { normal, offset: normal.dot(*place) - distance + margin })
         };
         self.planes = self.searched.par_iter().with_min_len(CHUNK).map(plane).collect();
-        self.layers.search(self.model, &self.searched, 2.0 * self.free_path);
+        self.layers.search(self.model, &self.points, 2.0 * self.free_path);
     }
 
     /// Keeps particles off the body, with friction, and takes the velocities from the way made.

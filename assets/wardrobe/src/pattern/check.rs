@@ -252,9 +252,9 @@ fn placement(placement: &Placement, figure: Figure) -> Result<()> {
                     if limbs.is_empty() { "no limbs".to_owned() } else { limbs.join(", ") }
                 )));
             }
-            if !(0.005..=EXTENT[1]).contains(radius) || !(0.0..=2.0).contains(flare) {
+            if !(0.005..=EXTENT[1]).contains(radius) || !(-2.0..=2.0).contains(flare) {
                 return Err(Error::invalid(format!(
-                    "its placement has the radius {radius} and the flare {flare}; they are 0.005 to 10 m and 0 to 2"
+                    "its placement has the radius {radius} and the flare {flare}; they are 0.005 to 10 m and -2 to 2"
                 )));
             }
             if !(-720.0..=720.0).contains(angle_deg) {

@@ -23,7 +23,8 @@ pub enum Placement {
         angle_deg: f64,
         /// Distance from the axis, metres; the piece is bent to this radius.
         radius: f64,
-        /// How much the radius grows per metre of distance from the start, for skirts; 0: a cylinder.
+        /// How much the radius grows per metre of distance from the start, -2 to 2: more than 0 for skirts, less for
+        /// trouser legs; 0: a cylinder.
         #[serde(default)]
         flare: f64,
     },
