@@ -7,4 +7,5 @@
 pub mod body;
 pub mod cut;
 pub mod drape;
+pub mod flat_sheet;
 pub mod pattern;

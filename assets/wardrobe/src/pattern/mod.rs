@@ -17,7 +17,7 @@ mod seam_check;
 mod unfold;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use cloth::Cloth;
 pub use data::{
