@@ -2,10 +2,11 @@
 //!
 //! A development tool; nothing of it is linked into the studio. Data flows one way: [`pattern`] (outlines, grain, seams,
 //! as read from JSON and checked) -> [`cut`] (pieces triangulated flat, seams as pairs of vertices) -> [`drape`]
-//! (placed round a [`body`], seams closed, left to fall until still) -> garment files, figures and pictures.
+//! (placed round a [`body`], seams closed, left to fall until still) -> [`measure`] and garment files, figures and pictures.
 
 pub mod body;
 pub mod cut;
 pub mod drape;
 pub mod flat_sheet;
+pub mod measure;
 pub mod pattern;

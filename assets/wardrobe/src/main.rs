@@ -10,6 +10,7 @@ use clap::{Parser, Subcommand};
 use wardrobe::body::Body;
 use wardrobe::cut::CutGarment;
 use wardrobe::drape::{self, Draped, Options};
+use wardrobe::measure;
 use wardrobe::pattern::Pattern;
 
 /// Makes garments from patterns.
@@ -78,6 +79,7 @@ fn run(command: &Command) -> Result<()> {
     let count: usize = finest.pieces.iter().map(|piece| piece.triangles.len()).sum();
     #[allow(clippy::print_stderr, reason = "progress")]
     {
+        eprintln!("{}\n{}", measure::Figures::HEAD, measure::measure(finest, &draped, &body).row(&finest.name));
         eprintln!("{:6.1} s  {count} triangles, {} substeps, fastest {:.1} mm/s", started.elapsed().as_secs_f64(), rest.substeps, rest.fastest * 1e3);
     }
     write_obj(finest, &draped, output)

@@ -2,8 +2,9 @@
 
 use glam::DVec2;
 
-/// Moves each vertex from `first` on to the area-weighted mean of its triangles' centroids (the step of Chen and Holst,
-/// "Efficient mesh optimization schemes based on optimal Delaunay triangulations", 2011, eq. 4.10, in its simpler form), one after the other, `rounds` times. No triangle is turned over.
+/// Moves each vertex from `first` on to the area-weighted mean of its triangles' centroids, one after the other, `rounds`
+/// times (the centroidal patch step of Chen and Holst, "Efficient mesh optimization schemes based on optimal Delaunay
+/// triangulations", 2011). No triangle is turned over.
 pub(super) fn smooth(points: &mut [DVec2], triangles: &[[u32; 3]], first: usize, rounds: usize) {
     let around = Around::new(points.len(), triangles);
     for _ in 0..rounds {

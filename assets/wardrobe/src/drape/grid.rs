@@ -4,7 +4,7 @@ use glam::{DVec3, IVec3};
 
 /// Boxes entered into the cells of a regular grid that they touch, the cells hashed (Teschner and others 2003).
 #[derive(Debug)]
-pub(super) struct CellGrid {
+pub(crate) struct CellGrid {
     cell: f64,
     mask: usize,
     /// Per bucket: where its entries start; one more at the end.
@@ -14,7 +14,7 @@ pub(super) struct CellGrid {
 
 impl CellGrid {
     /// Enters `boxes` (low and high corner, metres) into cells of the side `cell`, metres.
-    pub(super) fn new(boxes: &[(DVec3, DVec3)], cell: f64) -> Self {
+    pub(crate) fn new(boxes: &[(DVec3, DVec3)], cell: f64) -> Self {
         let mask = (2 * boxes.len()).next_power_of_two().max(16) - 1;
         let mut starts = vec![0u32; mask + 2];
         for (low, high) in boxes {
@@ -36,12 +36,12 @@ impl CellGrid {
     }
 
     /// The boxes in the cell of a place, in order.
-    pub(super) fn at(&self, place: DVec3) -> impl Iterator<Item = u32> {
+    pub(crate) fn at(&self, place: DVec3) -> impl Iterator<Item = u32> {
         self.in_cell((place / self.cell).floor().as_ivec3())
     }
 
     /// The pairs of overlapping boxes of which `index` is the first, each once. `boxes` as they were entered.
-    pub(super) fn overlapping(&self, index: u32, boxes: &[(DVec3, DVec3)]) -> impl Iterator<Item = u32> {
+    pub(crate) fn overlapping(&self, index: u32, boxes: &[(DVec3, DVec3)]) -> impl Iterator<Item = u32> {
         let (low, high) = boxes[index as usize];
         let first_of_both = move |place: IVec3, other: u32| {
             let (other_low, other_high) = boxes[other as usize];

@@ -8,7 +8,7 @@ use crate::pattern::Pattern;
 /// Edge length of the coarsest cut, metres.
 const COARSEST: f64 = 0.026;
 /// How much finer each cut is than the one before, at most.
-const FINER: f64 = 2.2;
+const FINER: f64 = 2.5;
 
 /// The cuts that [`super::drape`] wants, the last with edges about `edge_length` long, metres.
 ///

@@ -2,7 +2,7 @@
 
 mod carry;
 mod colour;
-mod grid;
+pub(crate) mod grid;
 mod hinge;
 mod layers;
 mod levels;

@@ -17,7 +17,7 @@ pub(super) struct Model {
     pub(super) particle_of: Vec<Vec<u32>>,
     /// Kilograms.
     pub(super) mass: Vec<f64>,
-    /// 1/kilograms.
+    /// 1/kilograms; 0 for one that nothing moves.
     pub(super) inverse_mass: Vec<f64>,
     /// All pieces' triangles with area, as particles.
     pub(super) triangles: Vec<[u32; 3]>,

@@ -17,14 +17,17 @@ pub struct Options {
     pub margin: f64,
     /// How far layers keep off each other, metres; at most half a triangle's edge.
     pub layer: f64,
-    /// Substep, seconds.
+    /// Substep, seconds per metre of the triangles' edges: one pass over the constraints makes the cloth stretch under its own
+    /// weight by about `rows step^2 gravity / edge`, so finer cloth needs shorter steps.
     pub step: f64,
     /// How long seams take to close, seconds of the cloth's time.
     pub sewing: f64,
-    /// How long the cloth falls, at most, seconds.
+    /// How long the coarsest cloth falls, at most, seconds.
     pub falling: f64,
     /// How long it may take to come to rest after that, seconds.
     pub quieting: f64,
+    /// How long a finer cloth falls from where the coarser one came to rest, and then at most quietens, seconds per metre of its edges.
+    pub relaxing: [f64; 2],
     /// At rest no particle is faster, metres per second.
     pub rest_speed: f64,
     /// Metres per second squared.
@@ -36,10 +39,11 @@ impl Default for Options {
         Self {
             margin: 0.0025,
             layer: 0.0025,
-            step: 1.0 / 2400.0,
+            step: 1.0 / 30.0,
             sewing: 0.6,
             falling: 1.6,
             quieting: 1.2,
+            relaxing: [45.0, 90.0],
             rest_speed: 0.005,
             gravity: 9.81,
         }
@@ -51,7 +55,7 @@ impl Default for Options {
 pub struct Rest {
     /// Substeps of the last level.
     pub substeps: usize,
-    /// The fastest particle's speed at the end, metres per second.
+    /// The fastest particle's speed at the end, over a sixtieth of a second, metres per second.
     pub fastest: f64,
     /// Energies of the last level, from its start, every sixtieth of a second.
     pub energies: Vec<Energy>,
@@ -69,9 +73,10 @@ impl Rest {
 const CLOSED: f64 = 0.004;
 /// Between two looks at energies and speeds, seconds.
 const FRAME: f64 = 1.0 / 60.0;
-/// Drag of the air while sewing, falling and quieting, 1/seconds.
+/// Drag of the air while sewing, falling, relaxing on a finer level and quieting, 1/seconds.
 const SEWING_DRAG: f64 = 10.0;
 const FALLING_DRAG: f64 = 2.5;
+const RELAXING_DRAG: f64 = 6.0;
 const QUIETING_DRAG: f64 = 25.0;
 /// How much stretchier the cloth is while it is sewn.
 const SEWING_SOFTNESS: f64 = 20.0;
@@ -89,8 +94,7 @@ pub(super) fn sew_and_drape(garment: &CutGarment, body: &Body, options: &Options
 pub(super) fn relax(garment: &CutGarment, start: &[Vec<DVec3>], body: &Body, options: &Options, progress: &Progress<'_>) -> Result<(Draped, Rest)> {
     let mut start = start.to_vec();
     start.iter_mut().flatten().for_each(|place| place::push_out(place, body, options.margin));
-    let shorter = Options { falling: 0.35 * options.falling, ..options.clone() };
-    settle_and_drape(garment, &start, body, &shorter, 1.0, progress)
+    settle_and_drape(garment, &start, body, options, 1.0, progress)
 }
 
 fn pairs(garment: &CutGarment, kind: JoinKind) -> impl Iterator<Item = (&str, At, At)> {
@@ -116,14 +120,14 @@ fn sew(garment: &CutGarment, placed: &[Vec<DVec3>], body: &Body, options: &Optio
     let welded = Model::new(garment, &sewn_pairs(garment));
     let identity = welded.particle_of.iter().flatten().copied().collect();
     let layers = Layers::new(&model, identity, layer(&model, options));
-    let mut solver = Solver::new(&model, body, &model.gather(placed), options.margin, layers, options.step);
+    let mut solver = Solver::new(&model, body, &model.gather(placed), options.margin, layers, options.step * model.edge_length);
     let thread = |(_, one, other): &(&str, At, At)| {
         let ends = [model.particle(*one), model.particle(*other)];
         let length = solver.points.get(ends[0]).distance(solver.points.get(ends[1]));
         Thread { ends, most: length }
     };
     let full: Vec<Thread> = pairs.iter().map(thread).collect();
-    let substeps = (options.sewing / options.step).ceil() as usize;
+    let substeps = (options.sewing / solver.step).ceil() as usize;
     let conditions = Conditions { gravity: 0.0, drag: SEWING_DRAG, softness: SEWING_SOFTNESS };
     for substep in 0..substeps + substeps / 4 {
         let left = (1.0 - (substep + 1) as f64 / substeps as f64).max(0.0);
@@ -156,19 +160,23 @@ fn settle_and_drape(
     let model = Model::new(garment, &sewn_pairs(garment));
     let thickness = layer(&model, options);
     let layers = Layers::new(&model, (0..model.mass.len() as u32).collect(), thickness);
-    let mut solver = Solver::new(&model, body, &model.gather(start), options.margin, layers, options.step);
+    let mut solver = Solver::new(&model, body, &model.gather(start), options.margin, layers, options.step * model.edge_length);
     let buttons = pairs(garment, JoinKind::Layered).map(|(_, one, other)| [model.particle(one), model.particle(other)]);
     solver.threads = buttons.map(|ends| Thread { ends, most: thickness }).collect();
     let mut rest = Rest::default();
     let gravity = options.gravity;
-    if softness > 1.0 {
+    let coarsest = softness > 1.0;
+    if coarsest {
         let ramp = |share: f64| Conditions { gravity: gravity * share, drag: SEWING_DRAG, softness: softness.powf(1.0 - share) };
         run(&mut solver, SETTLING, options, &mut rest, ramp, ("settling", progress))?;
     }
-    let fall = |_| Conditions { gravity, drag: FALLING_DRAG, softness: 1.0 };
-    run(&mut solver, options.falling, options, &mut rest, fall, ("falling", progress))?;
+    let [falling, quieting] = if coarsest { [options.falling, options.quieting] } else { options.relaxing.map(|time| time * model.edge_length) };
+    let almost_still = Options { rest_speed: 4.0 * options.rest_speed, ..options.clone() };
+    let drag = if coarsest { FALLING_DRAG } else { RELAXING_DRAG };
+    let fall = |_| Conditions { gravity, drag, softness: 1.0 };
+    run(&mut solver, falling, &almost_still, &mut rest, fall, ("falling", progress))?;
     let quiet = |_| Conditions { gravity, drag: QUIETING_DRAG, softness: 1.0 };
-    run(&mut solver, options.quieting, options, &mut rest, quiet, ("coming to rest", progress))?;
+    run(&mut solver, quieting, options, &mut rest, quiet, ("coming to rest", progress))?;
     Ok((Draped { positions: model.scatter(&solver.points.to_vec()) }, rest))
 }
 
@@ -186,17 +194,19 @@ fn run(
     conditions: impl Fn(f64) -> Conditions,
     (stage, progress): (&str, &Progress<'_>),
 ) -> Result<()> {
-    let substeps = (seconds / options.step).ceil() as usize;
-    let frame = (FRAME / options.step).ceil() as usize;
+    let substeps = (seconds / solver.step).ceil() as usize;
+    let frame = (FRAME / solver.step).ceil() as usize;
+    let mut before = solver.points.to_vec();
     for substep in 0..substeps {
         solver.advance(conditions((substep + 1) as f64 / substeps as f64));
         rest.substeps += 1;
-        if (substep + 1) % frame == 0 || substep + 1 == substeps {
+        if (substep + 1) % frame == 0 {
             progress.step(stage, substep + 1, substeps)?;
             check(solver)?;
-            rest.fastest = solver.fastest();
+            rest.fastest = solver.farthest_from(&before) / (frame as f64 * solver.step);
+            before = solver.points.to_vec();
             rest.energies.push(solver.energy(options.gravity));
-            if rest.fastest <= options.rest_speed && substep > 4 * frame {
+            if rest.fastest <= options.rest_speed && substep > 2 * frame {
                 break;
             }
         }

@@ -13,9 +13,12 @@ use crate::body::Body;
 
 /// Particles that a thread takes at a time.
 const CHUNK: usize = 1024;
-/// Contacts are looked for anew once a particle has moved so far, in mean edges, and at most so many metres.
-const FREE_PATH: f64 = 0.25;
-const MOST_FREE_PATH: f64 = 0.004;
+/// Contacts are looked for anew once a particle has moved as far as the fastest will in so many substeps, but at least and at most so many
+/// mean edges, and at most so many metres.
+const FREE_SUBSTEPS: f64 = 12.0;
+const LEAST_FREE_PATH: f64 = 0.04;
+const MOST_FREE_PATH: f64 = 0.25;
+const FARTHEST_FREE_PATH: f64 = 0.004;
 /// No particle is faster, metres per second.
 const MOST_SPEED: f64 = 2.0;
 /// A particle farther from the origin has been thrown out by a fault, metres.
@@ -98,7 +101,7 @@ impl<'a> Solver<'a> {
             points: Points::new(places),
             velocities: vec![DVec3::ZERO; places.len()],
             before: places.to_vec(),
-            free_path: (FREE_PATH * model.edge_length).min(MOST_FREE_PATH),
+            free_path: 0.0,
             searched: Vec::new(),
             planes: Vec::new(),
             layers,
@@ -133,10 +136,14 @@ impl<'a> Solver<'a> {
     fn predict(&mut self, conditions: Conditions) {
         let step = self.step;
         let kept = (-conditions.drag * step).exp();
-        let points = &self.points;
+        let (points, inverse_mass) = (&self.points, &self.model.inverse_mass);
         let chunks = self.velocities.par_chunks_mut(CHUNK).zip(self.before.par_chunks_mut(CHUNK)).enumerate();
         chunks.for_each(|(chunk, (velocities, before))| {
             for ((velocity, before), particle) in velocities.iter_mut().zip(before).zip((chunk * CHUNK) as u32..) {
+                if inverse_mass[particle as usize] == 0.0 {
+                    *velocity = DVec3::ZERO;
+                    continue;
+                }
                 *velocity = ((*velocity - DVec3::Y * (conditions.gravity * step)) * kept).clamp_length_max(MOST_SPEED);
                 *before = points.get(particle);
                 points.set(particle, *before + *velocity * step);
@@ -157,6 +164,9 @@ impl<'a> Solver<'a> {
         if self.blown_up {
             return;
         }
+        let edge = self.model.edge_length;
+        let most = (MOST_FREE_PATH * edge).min(FARTHEST_FREE_PATH);
+        self.free_path = (FREE_SUBSTEPS * self.step * self.fastest()).max(LEAST_FREE_PATH * edge).min(most);
         let (body, margin, reach) = (self.body, self.margin, self.margin + 1.5 * self.free_path);
         let plane = |place: &DVec3| {
             let (distance, normal) = body.surface(*place);
@@ -173,18 +183,27 @@ impl<'a> Solver<'a> {
         self.velocities.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, velocities)| {
             for (velocity, particle) in velocities.iter_mut().zip((chunk * CHUNK) as u32..) {
                 let index = particle as usize;
-                let mut place = points.get(particle);
-                if let Some(plane) = &planes[index] {
-                    place = plane.keep_off(place, before[index], friction);
-                    points.set(particle, place);
-                }
-                *velocity = (place - before[index]) * rate;
+                let place = points.get(particle);
+                let Some(plane) = planes[index].filter(|plane| plane.depth(place) > 0.0) else {
+                    *velocity = (place - before[index]) * rate;
+                    continue;
+                };
+                let place = plane.keep_off(place, before[index], friction);
+                points.set(particle, place);
+                // Being pushed out is no motion to go on with.
+                *velocity = ((place - before[index]) * rate).reject_from_normalized(plane.normal);
             }
         });
     }
 
+    /// The largest distance of a particle from where it was, metres.
+    pub(super) fn farthest_from(&self, places: &[DVec3]) -> f64 {
+        let moved = places.iter().enumerate().map(|(particle, place)| self.points.get(particle as u32).distance_squared(*place));
+        moved.fold(0.0, f64::max).sqrt()
+    }
+
     /// The fastest particle's speed, metres per second.
-    pub(super) fn fastest(&self) -> f64 {
+    fn fastest(&self) -> f64 {
         self.velocities.iter().map(|velocity| velocity.length_squared()).fold(0.0, f64::max).sqrt()
     }
 
@@ -200,11 +219,14 @@ impl<'a> Solver<'a> {
 }
 
 impl Plane {
+    /// How far a place is behind it, metres.
+    fn depth(&self, place: DVec3) -> f64 {
+        self.offset - self.normal.dot(place)
+    }
+
+    /// Brings a place from behind it onto it.
     fn keep_off(&self, place: DVec3, before: DVec3, friction: f64) -> DVec3 {
-        let depth = self.offset - self.normal.dot(place);
-        if depth <= 0.0 {
-            return place;
-        }
+        let depth = self.depth(place);
         let place = place + self.normal * depth;
         let slid = (place - before).reject_from_normalized(self.normal);
         let length = slid.length();

@@ -63,7 +63,10 @@ impl Drawing {
         let (fill, dash) = match style {
             Style::Outline => ("#f4efe4", String::new()),
             Style::Head => ("#222222", String::new()),
-            Style::Fold => ("none", format!(" stroke-dasharray=\"{:.2} {:.2}\"", self.type_size * 0.9, self.type_size * 0.5)),
+            Style::Fold => (
+                "none",
+                format!(" stroke-dasharray=\"{:.2} {:.2}\"", self.type_size * 0.9, self.type_size * 0.5),
+            ),
             _ => ("none", String::new()),
         };
         let _ = writeln!(

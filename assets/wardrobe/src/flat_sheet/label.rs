@@ -29,7 +29,13 @@ pub(super) fn width(text: &str, height: f64) -> f64 {
 }
 
 impl Label {
-    pub(super) fn new(at: DVec2, reading: DVec2, anchor: Anchor, (type_size, times): (f64, f64), text: &str) -> Self {
+    pub(super) fn new(
+        at: DVec2,
+        reading: DVec2,
+        anchor: Anchor,
+        (type_size, times): (f64, f64),
+        text: &str,
+    ) -> Self {
         Self { at, reading, anchor, height: type_size * times, times, text: text.to_owned() }
     }
 

@@ -29,14 +29,16 @@ const SCALE: f64 = 1000.0;
 pub fn svg(pattern: &Pattern) -> Result<String> {
     let whole = pattern.unfold()?;
     let type_size = type_size(&whole);
-    let pieces: Vec<Placed<'_>> = (0..whole.pieces.len()).map(|i| Placed::new(&whole, i, type_size)).collect();
+    let pieces: Vec<Placed<'_>> =
+        (0..whole.pieces.len()).map(|i| Placed::new(&whole, i, type_size)).collect();
     let extents: Vec<_> = pieces.iter().map(Placed::extent).collect();
     let sizes: Vec<DVec2> = extents.iter().map(layout::Extent::size).collect();
     let layout = layout::lay_out(&sizes, 2.5 * type_size);
     let head = 5.0 * type_size;
     let mut drawing = Drawing::new(layout.size + DVec2::new(0.0, 2.0 * head), type_size);
     for ((piece, extent), lower_left) in pieces.iter().zip(&extents).zip(&layout.places) {
-        piece.draw(&mut drawing, DVec2::new(lower_left.x - extent.low.x, head + lower_left.y - extent.high.y));
+        piece
+            .draw(&mut drawing, DVec2::new(lower_left.x - extent.low.x, head + lower_left.y - extent.high.y));
     }
     title(&mut drawing, &whole);
     scale_bar(&mut drawing, layout.size.y + head);

@@ -9,8 +9,8 @@ use super::layout::{Extent, extent};
 use crate::pattern::crossing::inside;
 use crate::pattern::{LineKind, Unfolded, WholePiece};
 
-/// Steps of the grid on which a piece's middle is looked for.
-const STEPS: usize = 40;
+/// Steps of the grid on which a piece's middle is looked for: odd, so that the box's middle is one.
+const STEPS: usize = 41;
 /// The height of a piece's name, in small type's.
 const NAME: f64 = 1.4;
 
@@ -53,7 +53,9 @@ impl<'a> Placed<'a> {
             let folded = self.piece.folds.iter().any(|fold| fold.line == i);
             match line.kind {
                 LineKind::Edge => {}
-                LineKind::Inner => drawing.line(&on_sheet(&line.points), if folded { Style::Fold } else { Style::Line }),
+                LineKind::Inner => {
+                    drawing.line(&on_sheet(&line.points), if folded { Style::Fold } else { Style::Line })
+                }
                 LineKind::Points => {
                     for centre in on_sheet(&line.points) {
                         drawing.circle(centre, self.type_size * 0.4);
@@ -80,7 +82,8 @@ impl<'a> Placed<'a> {
         let [start, end] = self.arrow;
         let length = (0.9 * self.type_size / SCALE).min(0.3 * start.distance(end));
         let along = (end - start).normalize_or(DVec2::Y) * length;
-        let head = |tip: DVec2, back: DVec2| [tip, tip + back + 0.35 * back.perp(), tip + back - 0.35 * back.perp()];
+        let head =
+            |tip: DVec2, back: DVec2| [tip, tip + back + 0.35 * back.perp(), tip + back - 0.35 * back.perp()];
         [head(start, along), head(end, -along)]
     }
 
@@ -97,7 +100,8 @@ impl<'a> Placed<'a> {
         let steep = grain.y.abs() > 0.5;
         let aside = if steep { DVec2::new(-1.2 * unit, 0.0) } else { DVec2::new(0.0, 1.6 * unit) };
         let at = middle + aside;
-        let room = |towards: DVec2, needed: f64| inside(&self.polygon, at) && self.reach(at, towards) > needed;
+        let room =
+            |towards: DVec2, needed: f64| inside(&self.polygon, at) && self.reach(at, towards) > needed;
         let (half_line, rest) = (NAME * unit, 0.5 * unit);
         let high_enough = room(DVec2::Y, half_line) && room(DVec2::NEG_Y, half_line);
         let type_height = (self.type_size, NAME);
@@ -108,7 +112,10 @@ impl<'a> Placed<'a> {
             Label::new(flipped(at) * SCALE, DVec2::X, Anchor::Middle, type_height, name)
         } else {
             let all = self.extent();
-            let below = DVec2::new(flipped(extent(&self.polygon).middle()).x * SCALE, all.high.y + NAME * self.type_size);
+            let below = DVec2::new(
+                flipped(extent(&self.polygon).middle()).x * SCALE,
+                all.high.y + NAME * self.type_size,
+            );
             Label::new(below, DVec2::X, Anchor::Middle, type_height, name)
         };
         self.labels.push(label);
@@ -131,7 +138,8 @@ impl<'a> Placed<'a> {
             if !inside(&self.polygon, point) {
                 continue;
             }
-            let clear = self.piece.outline().iter().map(|edge| edge.nearest(point).1).fold(f64::INFINITY, f64::min);
+            let clear =
+                self.piece.outline().iter().map(|edge| edge.nearest(point).1).fold(f64::INFINITY, f64::min);
             let worth = clear - 0.05 * point.distance(extent.middle());
             if worth > best.1 {
                 best = (point, worth);
@@ -145,12 +153,19 @@ impl<'a> Placed<'a> {
         let own = &self.piece.lines[line];
         let mut sewn = false;
         for seam in &whole.seams {
-            let parts = || seam.sides.iter().flatten().filter(|part| part.piece == piece && part.line == line);
+            let parts =
+                || seam.sides.iter().flatten().filter(|part| part.piece == piece && part.line == line);
             let from = parts().map(|part| part.from).fold(f64::INFINITY, f64::min);
             let to = parts().map(|part| part.to).fold(f64::NEG_INFINITY, f64::max);
             if from <= to {
                 sewn = true;
-                self.labels.push(Label::beside(own, from.midpoint(to), to - from, self.type_size, &seam.name));
+                self.labels.push(Label::beside(
+                    own,
+                    from.midpoint(to),
+                    to - from,
+                    self.type_size,
+                    &seam.name,
+                ));
             }
         }
         if !sewn {

@@ -7,6 +7,9 @@ use serde_json::{Value, json};
 
 use super::*;
 
+/// Spoils a part of a pattern.
+type Change = fn(&mut Value);
+
 /// The patterns that this crate ships.
 pub(crate) const SHIPPED: [&str; 5] = ["square", "scarf", "t-shirt", "a-line-skirt", "bias-skirt"];
 
@@ -34,7 +37,8 @@ fn rectangles(names: &[&str], seams: Value, change: impl FnOnce(&mut Value)) -> 
         })
     };
     let pieces: Vec<Value> = names.iter().map(piece).collect();
-    let mut pattern = json!({ "version": 1, "name": "test", "figure": "ball", "pieces": pieces, "seams": seams });
+    let mut pattern =
+        json!({ "version": 1, "name": "test", "figure": "ball", "pieces": pieces, "seams": seams });
     change(&mut pattern);
     Pattern::from_json(&pattern.to_string())
 }
@@ -45,11 +49,13 @@ fn fault(names: &[&str], seams: Value, change: impl FnOnce(&mut Value)) -> Strin
 
 #[test]
 fn a_piece_that_cannot_be_cut_is_refused_by_name() {
-    type Change = fn(&mut Value);
     let cases: [(Change, &str); 14] = [
         (|p| p["outline"][3]["path"] = json!([[0, 0.01]]), "its outline is open"),
         (|p| p["outline"][1]["path"] = json!([[0.1, 0.3], [0.5, 0.1]]), "overlaps itself"),
-        (|p| p["outline"][0]["path"] = json!([{ "curve": [[0.9, 0.5], [-0.5, 0.5], [0.4, 0]] }]), "overlaps itself"),
+        (
+            |p| p["outline"][0]["path"] = json!([{ "curve": [[0.9, 0.5], [-0.5, 0.5], [0.4, 0]] }]),
+            "overlaps itself",
+        ),
         (|p| p["outline"][1]["path"] = json!([[0.4, 0.2], [0.4, 0.05]]), "overlaps itself"),
         (|p| p["outline"][1]["path"] = json!([[0.4, 0]]), "'right' is 0.00 mm long"),
         (
@@ -66,8 +72,14 @@ fn a_piece_that_cannot_be_cut_is_refused_by_name() {
         (|p| p["outline"] = json!([]), "no outline"),
         (|p| p["outline"][1]["name"] = json!("top"), "two of its lines are called 'top'"),
         (|p| p["notches"] = json!([{ "edge": "hem", "at": 0.5 }]), "no edge is called so"),
-        (|p| p["placement"] = json!({ "kind": "around", "limb": "tail", "point": [0, 0], "along": 0, "angle_deg": 0, "radius": 1 }), "'tail'"),
-        (|p| p["lines"] = json!([{ "name": "pocket", "start": [0.3, 0.1], "path": [[0.5, 0.1]] }]), "cross or touch"),
+        (
+            |p| p["placement"] = json!({ "kind": "around", "limb": "tail", "point": [0, 0], "along": 0, "angle_deg": 0, "radius": 1 }),
+            "'tail'",
+        ),
+        (
+            |p| p["lines"] = json!([{ "name": "pocket", "start": [0.1, 0.1], "path": [[0.5, 0.1]] }]),
+            "cross or touch",
+        ),
         (|p| p["points"] = json!([{ "name": "button", "at": [[0.1, 0.5]] }]), "outside"),
         (|p| p["folds"] = json!([{ "along": "roll line", "angle_deg": 90 }]), "no inner line"),
     ];
@@ -79,12 +91,16 @@ fn a_piece_that_cannot_be_cut_is_refused_by_name() {
 
 #[test]
 fn a_seam_that_cannot_be_sewn_is_refused_by_name() {
-    let seam = |change: fn(&mut Value)| {
+    let seam = |change: Change| {
         let mut seam = json!({ "name": "join", "a": ["one: right"], "b": ["two: left"] });
         change(&mut seam);
-        fault(&["one", "two"], json!([seam, { "name": "other", "a": ["one: bottom"], "b": ["two: bottom"] }]), |_| {})
+        fault(
+            &["one", "two"],
+            json!([seam, { "name": "other", "a": ["one: bottom"], "b": ["two: bottom"] }]),
+            |_| {},
+        )
     };
-    let cases: [(fn(&mut Value), &str); 8] = [
+    let cases: [(Change, &str); 8] = [
         (|s| s["a"] = json!(["one: top"]), "its sides cannot match: 400.0 and 300.0 mm"),
         (|s| s["a"] = json!(["three: top"]), "no piece is called 'three'"),
         (|s| s["a"] = json!(["one: hem"]), "no line 'hem'"),
@@ -111,7 +127,8 @@ fn a_half_unfolds_to_the_whole() {
             { "name": "left side", "path": [[0.4, 0.3]] },
             { "name": "top", "path": [[0, 0.3]] }
         ]);
-        piece["notches"] = json!([{ "edge": "hem", "at": 0.25, "name": "left" }, { "edge": "left side", "at": 0.1 }]);
+        piece["notches"] =
+            json!([{ "edge": "hem", "at": 0.25, "name": "left" }, { "edge": "left side", "at": 0.1 }]);
         piece["lines"] = json!([{ "name": "across", "start": [0, 0.1], "path": [[0.4, 0.1]] }]);
         piece["folds"] = json!([{ "along": "across", "angle_deg": 90 }]);
     })
@@ -127,7 +144,9 @@ fn a_half_unfolds_to_the_whole() {
         .map(|n| (n.name.as_str(), piece.lines[n.line].at(n.along).x, piece.lines[n.line].at(n.along).y))
         .collect();
     for expected in [("right", -0.1, 0.0), ("left", 0.1, 0.0), ("", 0.4, 0.03), ("", -0.4, 0.03)] {
-        let found = marks.iter().any(|m| m.0 == expected.0 && (m.1 - expected.1).abs() + (m.2 - expected.2).abs() < 1e-9);
+        let found = marks
+            .iter()
+            .any(|m| m.0 == expected.0 && (m.1 - expected.1).abs() + (m.2 - expected.2).abs() < 1e-9);
         assert!(found, "{expected:?} in {marks:?}");
     }
     assert_eq!(piece.folds.len(), 1);
@@ -198,7 +217,16 @@ fn mutate(value: &mut Value, numbers: &mut Numbers) {
     leaves(value, &mut all);
     let (chosen, other) = (numbers.below(all.len()), numbers.below(all.len()));
     let other = all[other].clone();
-    let spoilt = [json!(0), json!(-1e300), json!(1e-300), json!(9.9), json!(""), json!(null), json!("front: hem"), json!([[0.1, 0.2]])];
+    let spoilt = [
+        json!(0),
+        json!(-1e300),
+        json!(1e-300),
+        json!(9.9),
+        json!(""),
+        json!(null),
+        json!("front: hem"),
+        json!([[0.1, 0.2]]),
+    ];
     let leaf = &mut *all[chosen];
     *leaf = match (numbers.below(4), leaf.as_f64()) {
         (0, Some(x)) => json!(x + (numbers.below(2001) as f64 - 1000.0) * 1e-4),
@@ -220,7 +248,8 @@ fn spoilt_patterns_are_refused_or_cut() {
             for _ in 0..=numbers.below(3) {
                 mutate(&mut value, &mut numbers);
             }
-            let garment = Pattern::from_json(&value.to_string()).and_then(|pattern| crate::cut::cut(&pattern, 0.04));
+            let garment =
+                Pattern::from_json(&value.to_string()).and_then(|pattern| crate::cut::cut(&pattern, 0.04));
             match garment {
                 Ok(_) => cut += 1,
                 Err(error) => {

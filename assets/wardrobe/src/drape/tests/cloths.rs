@@ -62,8 +62,8 @@ pub(super) fn square(side: f64, edge: f64) -> CutGarment {
 /// A tube of two rectangles round the torso, from the armpits down.
 pub(super) fn tube(edge: f64) -> CutGarment {
     let half = |name: &str, angle_deg: f64| {
-        let placement = Placement::Around { limb: "torso".to_owned(), point: [0.23, 0.5], along: 0.20, angle_deg, radius: 0.22, flare: 0.0 };
-        rectangle(name, 0.46, 0.5, edge, placement)
+        let placement = Placement::Around { limb: "torso".to_owned(), point: [0.245, 0.5], along: 0.20, angle_deg, radius: 0.22, flare: 0.0 };
+        rectangle(name, 0.49, 0.5, edge, placement)
     };
     let (front, back) = (half("front", 0.0), half("back", 180.0));
     let seam = |name: &str, one: &str, other: &str| {

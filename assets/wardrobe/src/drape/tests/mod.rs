@@ -1,2 +1,6 @@
+//! Tests of the drape.
+
 mod cloths;
 mod physics;
+mod placing;
+mod whole;
