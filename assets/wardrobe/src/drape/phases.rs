@@ -8,7 +8,7 @@ use super::model::Model;
 use super::solver::{Conditions, Energy, Solver, Thread};
 use super::{Draped, place};
 use crate::body::Body;
-use crate::cut::{At, CutGarment, JoinKind};
+use crate::cut::{At, CutGarment, Join, JoinKind};
 
 /// How a garment is draped.
 #[derive(Debug, Clone, PartialEq)]
@@ -110,42 +110,71 @@ fn layer(model: &Model, options: &Options) -> f64 {
     options.layer.min(0.5 * model.edge_length)
 }
 
-/// Closes the seams: without weight, each seam's threads shorten to nothing in the same time.
+/// Closes the seams without weight and friction, late ones after the others. Each seam's threads shorten in the same time: to
+/// nothing, or to one layer where it holds two layers together.
 fn sew(garment: &CutGarment, placed: &[Vec<DVec3>], body: &Body, options: &Options, progress: &Progress<'_>) -> Result<Vec<Vec<DVec3>>> {
     let pairs: Vec<_> = pairs(garment, JoinKind::Sewn).collect();
     if pairs.is_empty() {
         return Ok(placed.to_vec());
     }
-    let model = Model::new(garment, &[]);
+    let mut model = Model::new(garment, &[]);
+    model.friction = 0.0;
     let welded = Model::new(garment, &sewn_pairs(garment));
     let identity = welded.particle_of.iter().flatten().copied().collect();
-    let layers = Layers::new(&model, identity, layer(&model, options));
+    let thickness = layer(&model, options);
+    let layers = Layers::new(&model, identity, thickness);
     let mut solver = Solver::new(&model, body, &model.gather(placed), options.margin, layers, options.step * model.edge_length);
-    let thread = |(_, one, other): &(&str, At, At)| {
-        let ends = [model.particle(*one), model.particle(*other)];
-        let length = solver.points.get(ends[0]).distance(solver.points.get(ends[1]));
-        Thread { ends, most: length }
-    };
-    let full: Vec<Thread> = pairs.iter().map(thread).collect();
+    let closings: Vec<Closing> = closings(garment, &model, &solver, thickness);
     let substeps = (options.sewing / solver.step).ceil() as usize;
     let conditions = Conditions { gravity: 0.0, drag: SEWING_DRAG, softness: SEWING_SOFTNESS };
-    for substep in 0..substeps + substeps / 4 {
-        let left = (1.0 - (substep + 1) as f64 / substeps as f64).max(0.0);
-        solver.threads = full.iter().map(|thread| Thread { most: thread.most * left, ..*thread }).collect();
+    let rounds = if closings.iter().any(|closing| closing.late) { 2 } else { 1 };
+    for substep in 0..rounds * substeps + substeps / 4 {
+        let time = (substep + 1) as f64 / substeps as f64;
+        solver.threads = closings.iter().map(|closing| closing.thread(time)).collect();
         solver.advance(conditions);
         if substep % 64 == 0 {
-            progress.step("sewing", substep, substeps)?;
+            progress.step("sewing", substep, rounds * substeps)?;
         }
     }
     check(&solver)?;
-    for ((name, ..), thread) in pairs.iter().zip(&full) {
-        let gap = solver.points.get(thread.ends[0]).distance(solver.points.get(thread.ends[1]));
+    for (name, one, other) in pairs {
+        let gap = solver.points.get(model.particle(one)).distance(solver.points.get(model.particle(other)));
         if !(gap <= CLOSED) {
             let what = format!("the seam does not close: {:.1} mm stay open; place its pieces nearer to each other", gap * 1e3);
             return Err(Error::invalid(what).at_element(format!("seam \"{name}\"")));
         }
     }
     Ok(model.scatter(&solver.points.to_vec()))
+}
+
+/// A thread of a seam that is being closed.
+struct Closing {
+    ends: [u32; 2],
+    /// Its length at first and in the end, metres.
+    lengths: [f64; 2],
+    /// Whether it waits for the others.
+    late: bool,
+}
+
+impl Closing {
+    /// What is left of it; `time` in seams' times.
+    fn thread(&self, time: f64) -> Thread {
+        let left = (1.0 + f64::from(u8::from(self.late)) - time).clamp(0.0, 1.0);
+        Thread { ends: self.ends, most: self.lengths[1] + (self.lengths[0] - self.lengths[1]).max(0.0) * left }
+    }
+}
+
+fn closings(garment: &CutGarment, model: &Model, solver: &Solver<'_>, thickness: f64) -> Vec<Closing> {
+    let of_join = |join: &Join| {
+        let (late, least) = (join.late, if join.kind == JoinKind::Sewn { 0.0 } else { thickness });
+        let closing = |(one, other): &(At, At)| {
+            let ends = [model.particle(*one), model.particle(*other)];
+            let length = solver.points.get(ends[0]).distance(solver.points.get(ends[1]));
+            Closing { ends, lengths: [length, least], late }
+        };
+        join.pairs.iter().map(closing).collect::<Vec<_>>()
+    };
+    garment.joins.iter().flat_map(of_join).collect()
 }
 
 /// Welds the seams and lets the garment fall until it is still.
