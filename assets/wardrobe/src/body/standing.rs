@@ -1,7 +1,7 @@
 //! The standing adult: a lofted torso with round arms and legs, smoothly joined.
 //!
 //! Girths are of the order of common size tables for a height of 1.75 m: chest 0.96 m, waist 0.80 m, hips 0.98 m, neck 0.38 m,
-//! upper arm 0.30 m, wrist 0.17 m. There is no head: nothing is draped over it.
+//! upper arm 0.30 m, wrist 0.17 m. The head is an egg: it keeps a scarf from slipping off.
 
 use glam::{DVec2, DVec3};
 
@@ -9,7 +9,7 @@ use super::Limb;
 use super::field::Space;
 
 /// The space that holds the figure.
-pub(super) const SPACE: Space = Space { low: DVec3::new(-0.75, -0.05, -0.30), high: DVec3::new(0.75, 1.70, 0.35) };
+pub(super) const SPACE: Space = Space { low: DVec3::new(-0.75, -0.05, -0.30), high: DVec3::new(0.75, 1.82, 0.35) };
 
 /// A horizontal section of the torso: an ellipse.
 struct Section {
@@ -24,8 +24,8 @@ const fn section(height: f64, half_width: f64, half_depth: f64, forward: f64) ->
     Section { height, half_width, half_depth, forward }
 }
 
-/// From the crotch to the chin, metres.
-const TORSO: [Section; 12] = [
+/// From the crotch into the head, metres.
+const TORSO: [Section; 13] = [
     section(0.76, 0.120, 0.085, -0.005),
     section(0.82, 0.168, 0.118, -0.006),
     section(0.90, 0.178, 0.132, -0.008),
@@ -37,7 +37,8 @@ const TORSO: [Section; 12] = [
     section(1.38, 0.172, 0.092, -0.012),
     section(1.425, 0.125, 0.076, -0.012),
     section(1.46, 0.068, 0.066, -0.006),
-    section(1.52, 0.058, 0.062, 0.002),
+    section(1.52, 0.058, 0.062, 0.004),
+    section(1.60, 0.058, 0.062, 0.016),
 ];
 
 /// A length of an arm or leg: round, from one radius to another.
@@ -55,6 +56,8 @@ const HIP: DVec3 = DVec3::new(0.092, 0.86, -0.005);
 const KNEE: DVec3 = DVec3::new(0.112, 0.48, 0.005);
 const ANKLE: DVec3 = DVec3::new(0.130, 0.08, -0.02);
 const TOES: DVec3 = DVec3::new(0.145, 0.035, 0.11);
+const HEAD: DVec3 = DVec3::new(0.0, 1.645, 0.022);
+const HEAD_RADII: DVec3 = DVec3::new(0.076, 0.112, 0.096);
 /// How far from the shoulder joint the elbow, the wrist and the knuckles are.
 const ELBOW_AT: f64 = 0.30;
 const WRIST_AT: f64 = 0.555;
@@ -82,7 +85,14 @@ pub(super) fn distance(point: DVec3) -> f64 {
     let mirrored = DVec3::new(point.x.abs(), point.y, point.z);
     let arm = arm_bones().iter().map(|bone| bone_distance(bone, mirrored)).fold(f64::INFINITY, |a, b| smooth_least(a, b, 0.015));
     let leg = leg_bones().iter().map(|bone| bone_distance(bone, mirrored)).fold(f64::INFINITY, |a, b| smooth_least(a, b, 0.02));
-    smooth_least(smooth_least(torso_distance(point), arm, BLEND), leg, BLEND)
+    let trunk = smooth_least(torso_distance(point), head_distance(point), 0.02);
+    smooth_least(smooth_least(trunk, arm, BLEND), leg, BLEND)
+}
+
+fn head_distance(point: DVec3) -> f64 {
+    let arm = point - HEAD;
+    let (scaled, steep) = ((arm / HEAD_RADII).length(), (arm / (HEAD_RADII * HEAD_RADII)).length());
+    if steep > 1e-9 { scaled * (scaled - 1.0) / steep } else { -HEAD_RADII.min_element() }
 }
 
 fn arm_bones() -> [Bone; 3] {

@@ -37,7 +37,7 @@ impl CellGrid {
 
     /// The boxes in the cell of a place, in order.
     pub(crate) fn at(&self, place: DVec3) -> impl Iterator<Item = u32> {
-        self.in_cell((place / self.cell).floor().as_ivec3())
+        self.in_cell(cell_of(place, self.cell))
     }
 
     /// The pairs of overlapping boxes of which `index` is the first, each once. `boxes` as they were entered.
@@ -46,7 +46,7 @@ impl CellGrid {
         let first_of_both = move |place: IVec3, other: u32| {
             let (other_low, other_high) = boxes[other as usize];
             let overlap = low.cmple(other_high).all() && high.cmpge(other_low).all();
-            overlap && (low.max(other_low) / self.cell).floor().as_ivec3() == place
+            overlap && cell_of(low.max(other_low), self.cell) == place
         };
         cells(low, high, self.cell)
             .flat_map(move |place| self.in_cell(place).filter(move |other| *other > index && first_of_both(place, *other)))
@@ -59,8 +59,13 @@ impl CellGrid {
     }
 }
 
+/// The cell of a place; the offset makes rounding towards zero the rounding down that is wanted, without a slow `floor`.
+fn cell_of(place: DVec3, cell: f64) -> IVec3 {
+    (place / cell + DVec3::splat(f64::from(1 << 24))).as_ivec3()
+}
+
 fn cells(low: DVec3, high: DVec3, cell: f64) -> impl Iterator<Item = IVec3> {
-    let (low, high) = ((low / cell).floor().as_ivec3(), (high / cell).floor().as_ivec3());
+    let (low, high) = (cell_of(low, cell), cell_of(high, cell));
     (low.z..=high.z).flat_map(move |z| (low.y..=high.y).flat_map(move |y| (low.x..=high.x).map(move |x| IVec3::new(x, y, z))))
 }
 

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::grid::CellGrid;
 use super::model::Model;
 use super::points::Points;
+use super::tangle::Tangle;
 
 /// What may touch before the next search.
 #[derive(Debug, Clone, Copy)]
@@ -30,7 +31,14 @@ pub(super) struct Layers {
     /// Per sewn particle, itself and those it shares a triangle with, sorted.
     neighbours: Vec<Vec<u32>>,
     thickness: f64,
+    near: Near,
+}
+
+/// What a search finds.
+#[derive(Debug, Default)]
+struct Near {
     pairs: Vec<Pair>,
+    tangles: Vec<Tangle>,
 }
 
 /// A triangle, and which of its corners and edges are looked at with it: each is with one triangle only.
@@ -79,7 +87,7 @@ impl Layers {
             list.sort_unstable();
             list.dedup();
         }
-        Self { triangles, sewn, neighbours, thickness, pairs: Vec::new() }
+        Self { triangles, sewn, neighbours, thickness, near: Near::default() }
     }
 
     /// Finds all pairs that are within the thickness and `reach`, metres.
@@ -95,32 +103,48 @@ impl Layers {
         let grid = CellGrid::new(&boxes, cell);
         let this = &*self;
         let of_triangle = |index: usize| {
-            let mut pairs = Vec::new();
+            let mut near = Near::default();
             for other in grid.overlapping(index as u32, &boxes) {
-                this.add_pairs(&this.triangles[index], &this.triangles[other as usize], places, range, &mut pairs);
+                this.add(&this.triangles[index], &this.triangles[other as usize], places, range, &mut near);
             }
-            pairs
+            near
         };
-        self.pairs = (0..self.triangles.len()).into_par_iter().with_min_len(256).flat_map_iter(of_triangle).collect();
+        let found: Vec<Near> = (0..self.triangles.len()).into_par_iter().with_min_len(256).map(of_triangle).collect();
+        self.near = Near::default();
+        for near in found {
+            self.near.pairs.extend(near.pairs);
+            self.near.tangles.extend(near.tangles);
+        }
     }
 
-    fn add_pairs(&self, one: &Owner, other: &Owner, places: &[DVec3], range: f64, pairs: &mut Vec<Pair>) {
+    fn add(&self, one: &Owner, other: &Owner, places: &[DVec3], range: f64, near: &mut Near) {
         if one.corners.iter().any(|corner| other.corners.contains(corner)) {
             return;
         }
+        // Where two triangles have gone through each other neither knows its side any more: holding them there would only pull
+        // the tangle tighter.
+        let before = near.tangles.len();
+        near.tangles.extend(Tangle::between(&one.corners, &other.corners, places).chain(Tangle::between(&other.corners, &one.corners, places)));
+        if near.tangles.len() > before {
+            return;
+        }
         for (from, to) in [(one, other), (other, one)] {
-            pairs.extend(from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range)));
+            near.pairs.extend(from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range)));
         }
         for first in one.own_edges() {
-            pairs.extend(other.own_edges().filter_map(|second| self.crossing(first, second, places, range)));
+            near.pairs.extend(other.own_edges().filter_map(|second| self.crossing(first, second, places, range)));
         }
     }
 
     fn face(&self, particle: u32, corners: [u32; 3], places: &[DVec3], range: f64) -> Option<Pair> {
         let [a, b, c] = corners.map(|corner| places[corner as usize]);
-        let normal = (b - a).cross(c - a).try_normalize()?;
-        let height = (places[particle as usize] - a).dot(normal);
-        if height.abs() > range || self.adjoin(particle, &corners) {
+        let (place, grow) = (places[particle as usize], DVec3::splat(range));
+        if place.cmplt(a.min(b).min(c) - grow).any() || place.cmpgt(a.max(b).max(c) + grow).any() {
+            return None;
+        }
+        let normal = (b - a).cross(c - a);
+        let height = (place - a).dot(normal);
+        if height * height > range * range * normal.length_squared() || self.adjoin(particle, &corners) {
             return None;
         }
         let side = if height < 0.0 { -1.0 } else { 1.0 };
@@ -136,6 +160,9 @@ impl Layers {
     fn crossing(&self, first: [u32; 2], second: [u32; 2], places: &[DVec3], range: f64) -> Option<Pair> {
         let [a, b] = first.map(|end| places[end as usize]);
         let [c, d] = second.map(|end| places[end as usize]);
+        if (a.min(b) - DVec3::splat(range)).cmpgt(c.max(d)).any() || (a.max(b) + DVec3::splat(range)).cmplt(c.min(d)).any() {
+            return None;
+        }
         let (s, t) = nearest_on_edges(a, b, c, d)?;
         let between = a.lerp(b, s) - c.lerp(d, t);
         if between.length_squared() > range * range || self.adjoin(first[0], &second) || self.adjoin(first[1], &second) {
@@ -145,13 +172,23 @@ impl Layers {
         Some(Pair::Edges { first, second, direction, apart: self.thickness })
     }
 
+    /// Whether the cloth was found to go through itself.
+    pub(super) fn tangled(&self) -> bool {
+        !self.near.tangles.is_empty()
+    }
+
+    /// Draws apart what has gone through itself; `step` in seconds.
+    pub(super) fn untangle(&self, points: &Points, inverse_mass: &[f64], step: f64) {
+        self.near.tangles.iter().for_each(|tangle| tangle.pull(points, inverse_mass, step));
+    }
+
     /// Keeps every pair apart. `before`: places at the step's start, for friction.
     pub(super) fn solve(&self, points: &Points, before: &[DVec3], inverse_mass: &[f64], friction: f64) {
         let touching = |pair: &&Pair| touch(pair, points).is_some();
-        let active: Vec<&Pair> = if self.pairs.len() < 4096 {
-            self.pairs.iter().filter(touching).collect()
+        let active: Vec<&Pair> = if self.near.pairs.len() < 4096 {
+            self.near.pairs.iter().filter(touching).collect()
         } else {
-            self.pairs.par_iter().with_min_len(1024).filter(touching).collect()
+            self.near.pairs.par_iter().with_min_len(1024).filter(touching).collect()
         };
         for pair in active {
             if let Some(touch) = touch(pair, points) {

@@ -12,6 +12,7 @@ mod phases;
 mod place;
 mod points;
 mod solver;
+mod tangle;
 #[cfg(test)]
 mod tests;
 

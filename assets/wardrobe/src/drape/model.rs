@@ -170,13 +170,14 @@ fn hinges(garment: &CutGarment, particle_of: &[Vec<u32>]) -> Vec<Hinge> {
 
 fn side(piece: &CutPiece, cloth: &Cloth, folds: &BTreeMap<[u32; 2], f64>, index: usize, [a, b, c]: [u32; 3], particles: &[u32]) -> Side {
     let flat = |vertex: u32| piece.flat[vertex as usize];
+    let bending = cloth.bending.max(LEAST_BENDING * cloth.density * flat(a).distance(flat(b)).powi(3));
     let rest = folds.get(&[a.min(b), a.max(b)]).copied();
     Side {
         edge: [particles[a as usize], particles[b as usize]],
         far: particles[c as usize],
         length: flat(a).distance(flat(b)),
         area: 0.5 * (flat(b) - flat(a)).perp_dot(flat(c) - flat(a)).abs(),
-        bending: if rest.is_some() { cloth.bending * FOLD_STIFFNESS } else { cloth.bending },
+        bending: if rest.is_some() { bending * FOLD_STIFFNESS } else { bending },
         rest: rest.unwrap_or(0.0),
         piece: index,
     }
@@ -184,6 +185,10 @@ fn side(piece: &CutPiece, cloth: &Cloth, folds: &BTreeMap<[u32; 2], f64>, index:
 
 /// How much stiffer a pressed fold keeps its angle than the cloth keeps flat.
 const FOLD_STIFFNESS: f64 = 50.0;
+
+/// Cloth folds by its own weight over a length of `(bending / (density gravity))^(1/3)`. Cloth too soft to fold no closer than about
+/// its triangles' edges is made so stiff, or it would crumple into shapes that the triangles cannot show. Metres per second squared.
+const LEAST_BENDING: f64 = 8.0;
 
 fn fold_angles(piece: &CutPiece) -> BTreeMap<[u32; 2], f64> {
     let pairs = piece.folds.iter().flat_map(|fold| fold.vertices.windows(2).map(|pair| (pair, fold.angle)));

@@ -15,7 +15,7 @@ use crate::cut::{At, CutGarment, Join, JoinKind};
 pub struct Options {
     /// How far the cloth keeps off the body, metres.
     pub margin: f64,
-    /// How far layers keep off each other, metres; at most half a triangle's edge.
+    /// How far layers keep off each other, metres; at least a fifth and at most half of a triangle's edge.
     pub layer: f64,
     /// Substep, seconds per metre of the triangles' edges: one pass over the constraints makes the cloth stretch under its own
     /// weight by about `rows step^2 gravity / edge`, so finer cloth needs shorter steps.
@@ -69,13 +69,16 @@ impl Rest {
     }
 }
 
+/// Bounds of the distance between layers, in mean edges.
+const LEAST_LAYER: f64 = 0.2;
+const MOST_LAYER: f64 = 0.5;
 /// A seam wider than this after sewing has not closed, metres.
 const CLOSED: f64 = 0.004;
 /// Between two looks at energies and speeds, seconds.
 const FRAME: f64 = 1.0 / 60.0;
 /// Drag of the air while sewing, falling, relaxing on a finer level and quieting, 1/seconds.
 const SEWING_DRAG: f64 = 10.0;
-const FALLING_DRAG: f64 = 2.5;
+const FALLING_DRAG: f64 = 4.0;
 const RELAXING_DRAG: f64 = 6.0;
 const QUIETING_DRAG: f64 = 25.0;
 /// How much stretchier the cloth is while it is sewn.
@@ -107,7 +110,7 @@ fn sewn_pairs(garment: &CutGarment) -> Vec<(At, At)> {
 }
 
 fn layer(model: &Model, options: &Options) -> f64 {
-    options.layer.min(0.5 * model.edge_length)
+    options.layer.max(LEAST_LAYER * model.edge_length).min(MOST_LAYER * model.edge_length)
 }
 
 /// Closes the seams without weight and friction, late ones after the others. Each seam's threads shorten in the same time: to

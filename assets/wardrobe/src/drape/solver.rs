@@ -19,8 +19,10 @@ const FREE_SUBSTEPS: f64 = 12.0;
 const LEAST_FREE_PATH: f64 = 0.04;
 const MOST_FREE_PATH: f64 = 0.25;
 const FARTHEST_FREE_PATH: f64 = 0.004;
+/// As long as the cloth is tangled a search is good for so many substeps.
+const TANGLED_SUBSTEPS: usize = 16;
 /// No particle is faster, metres per second.
-const MOST_SPEED: f64 = 2.0;
+const MOST_SPEED: f64 = 1.5;
 /// A particle farther from the origin has been thrown out by a fault, metres.
 const FARTHEST: f64 = 50.0;
 
@@ -82,6 +84,7 @@ pub(super) struct Solver<'a> {
     free_path: f64,
     /// Places at the last search for contacts.
     searched: Vec<DVec3>,
+    since_search: usize,
     planes: Vec<Option<Plane>>,
     layers: Layers,
     pub(super) threads: Vec<Thread>,
@@ -103,6 +106,7 @@ impl<'a> Solver<'a> {
             before: places.to_vec(),
             free_path: 0.0,
             searched: Vec::new(),
+            since_search: 0,
             planes: Vec::new(),
             layers,
             threads: Vec::new(),
@@ -119,7 +123,8 @@ impl<'a> Solver<'a> {
             return;
         }
         self.predict(conditions);
-        if self.wandered() {
+        self.since_search += 1;
+        if self.wandered() || (self.layers.tangled() && self.since_search >= TANGLED_SUBSTEPS) {
             self.search();
         }
         let (points, inverse_mass, step) = (&self.points, &self.model.inverse_mass, self.step);
@@ -128,6 +133,7 @@ impl<'a> Solver<'a> {
         for thread in &self.threads {
             thread.solve(points, inverse_mass);
         }
+        self.layers.untangle(points, inverse_mass, step);
         self.layers.solve(points, &self.before, inverse_mass, self.model.friction);
         self.rest_on_body();
     }
@@ -160,6 +166,7 @@ impl<'a> Solver<'a> {
     /// Finds what each particle may touch until it has moved by the free path.
     fn search(&mut self) {
         self.searched = self.points.to_vec();
+        self.since_search = 0;
         self.blown_up |= !self.searched.iter().all(|place| place.abs().max_element() < FARTHEST);
         if self.blown_up {
             return;
