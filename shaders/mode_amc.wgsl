@@ -9,10 +9,10 @@
 
 struct AmcSurface {
     @builtin(position) clip: vec4<f32>,
-    // Position in view space, and the light that occlusion leaves.
-    @location(0) p_light: vec4<f32>,
-    // Normal in view space.
-    @location(1) n: vec3<f32>,
+    // Position in view space, and the light that occlusion leaves on the front.
+    @location(0) p_front: vec4<f32>,
+    // Normal in view space, and the light on the back.
+    @location(1) n_back: vec4<f32>,
     // Cyclic mode `fragment`: the tangent in view space; else the kappas of `vertex_kappa`.
     @location(2) direction: vec4<f32>,
 }
@@ -24,8 +24,9 @@ fn vertex_main(vertex: Vertex) -> AmcSurface {
     let t = direction_in_view(vertex.tangent);
     var surface: AmcSurface;
     surface.clip = clip_position(p);
-    surface.p_light = vec4<f32>(p, vertex_light(vertex));
-    surface.n = n;
+    let light = vertex_light(vertex);
+    surface.p_front = vec4<f32>(p, light.x);
+    surface.n_back = vec4<f32>(n, light.y);
     if cyclic_mode == 2u {
         surface.direction = vec4<f32>(t, 0.0);
     } else {
@@ -37,8 +38,8 @@ fn vertex_main(vertex: Vertex) -> AmcSurface {
 
 @fragment
 fn fragment_main(surface: AmcSurface, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
-    let p = surface.p_light.xyz;
-    let n = facing_normal(surface.n, front);
+    let p = surface.p_front.xyz;
+    let n = facing_normal(surface.n_back.xyz, front);
     var turns: f32;
     if cyclic_mode == 2u {
         turns = fragment_kappa(fabric.symmetry, p, n, surface.direction.xyz);
@@ -49,5 +50,5 @@ fn fragment_main(surface: AmcSurface, @builtin(front_facing) front: bool) -> @lo
             turns = cyclic_choice(pair, fwidth(pair));
         }
     }
-    return opaque(look_up(look_up_normal(p, n), turns) * surface.p_light.w);
+    return opaque(look_up(look_up_normal(p, n), turns) * seen_light(surface.p_front.w, surface.n_back.w, front));
 }

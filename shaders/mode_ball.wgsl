@@ -7,7 +7,7 @@
 
 @fragment
 fn fragment_main(surface: Surface, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
-    let n = facing_normal(surface.n, front);
-    let colour = look_up_ball(look_up_normal(surface.p_light.xyz, n));
-    return opaque(colour * surface.p_light.w);
+    let n = facing_normal(surface.n_back.xyz, front);
+    let colour = look_up_ball(look_up_normal(surface.p_front.xyz, n));
+    return opaque(colour * seen_light(surface.p_front.w, surface.n_back.w, front));
 }

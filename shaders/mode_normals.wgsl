@@ -5,5 +5,5 @@
 
 @fragment
 fn fragment_main(surface: Surface, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
-    return opaque(linear_colour(direction_colour(facing_normal(surface.n, front))));
+    return opaque(linear_colour(direction_colour(facing_normal(surface.n_back.xyz, front))));
 }

@@ -12,5 +12,5 @@ fn plain(n_z: f32) -> vec3<f32> {
 
 @fragment
 fn fragment_main(surface: Surface, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
-    return opaque(plain(facing_normal(surface.n, front).z) * surface.p_light.w);
+    return opaque(plain(facing_normal(surface.n_back.xyz, front).z) * seen_light(surface.p_front.w, surface.n_back.w, front));
 }

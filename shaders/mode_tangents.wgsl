@@ -5,6 +5,6 @@
 
 @fragment
 fn fragment_main(surface: Surface, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
-    let t = perpendicular(surface.t, facing_normal(surface.n, front));
+    let t = perpendicular(surface.t, facing_normal(surface.n_back.xyz, front));
     return opaque(linear_colour(direction_colour(t)));
 }

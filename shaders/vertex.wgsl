@@ -7,7 +7,7 @@ struct Vertex {
     @location(1) normal: vec3<f32>,
     @location(2) tangent: vec3<f32>,
     @location(3) uv: vec2<f32>,
-    @location(4) occlusion: f32,
+    @location(4) occlusion: vec2<f32>,
 }
 
 fn position_in_view(vertex: Vertex) -> vec3<f32> {
@@ -22,7 +22,7 @@ fn clip_position(p: vec3<f32>) -> vec4<f32> {
     return view.view_to_clip * vec4<f32>(p, 1.0);
 }
 
-// What multiplies the colour at this vertex.
-fn vertex_light(vertex: Vertex) -> f32 {
-    return select(1.0, vertex.occlusion, view.occlusion > 0.0);
+// What multiplies the colour at this vertex, on the front and on the back.
+fn vertex_light(vertex: Vertex) -> vec2<f32> {
+    return select(vec2<f32>(1.0), vertex.occlusion, view.occlusion > 0.0);
 }

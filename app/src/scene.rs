@@ -1,5 +1,6 @@
 //! A scene from the command line: a garment, its panels' fabrics and directions, ready to draw.
 
+mod bundled;
 mod fabric;
 mod garment;
 mod look;
@@ -13,11 +14,12 @@ pub(crate) use panel_option::PanelOption;
 use amc_core::mesh::Garment;
 use amc_core::render::{Cloth, Drawing};
 use amc_core::{Progress, Result, direction, occlusion};
+use glam::Vec2;
 
 use crate::storage::cache_folder;
 
 /// Occlusion of every vertex, from the cache where it is there.
-fn vertex_occlusion(garment: &Garment, progress: &Progress<'_>) -> Result<Vec<f32>> {
+fn vertex_occlusion(garment: &Garment, progress: &Progress<'_>) -> Result<Vec<Vec2>> {
     let options = occlusion::Options::default();
     match cache_folder() {
         Some(folder) => occlusion::cached(garment, options, &folder.join("occlusion"), progress),

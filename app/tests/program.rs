@@ -158,6 +158,48 @@ fn directions_are_exported_and_panels_listed() {
     assert_eq!(again["triangles"], mesh["triangles"]);
 }
 
+/// A square whose pattern runs its warp along +v.
+fn save_upright(file: &Path) {
+    use amc_core::mesh::{Garment, Mesh, Part, PatternPiece};
+    let uvs = vec![glam::Vec2::ZERO, glam::Vec2::X, glam::Vec2::ONE, glam::Vec2::Y];
+    let pattern =
+        PatternPiece { grain: Some(std::f32::consts::FRAC_PI_2), uv_unit: Some(1.0), ..Default::default() };
+    let mesh = Mesh {
+        positions: uvs.iter().map(|uv| uv.extend(0.0)).collect(),
+        normals: vec![glam::Vec3::Z; 4],
+        uvs: Some(uvs),
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        triangle_parts: vec![0; 2],
+        parts: vec![Part { name: "Front".to_owned(), takes_fabric: true, pattern }],
+        ..Mesh::default()
+    };
+    amc_core::export::garment(&Garment::new(mesh).unwrap(), file).unwrap();
+}
+
+#[test]
+fn a_panel_runs_along_its_grain_until_someone_says_otherwise() {
+    let folder = scratch();
+    let here = folder.path();
+    save_upright(&here.join("upright.glb"));
+    assert_eq!(json(here, &["inspect", "upright.glb"])["panels"][0]["grain_deg"], 90.0);
+    let angle_and_direction = |options: &[&str]| {
+        done(here, &[&["tangents", "upright.glb", "-o", "t.json"], options].concat());
+        let text = std::fs::read_to_string(here.join("t.json")).unwrap();
+        let panel = serde_json::from_str::<Value>(&text).unwrap()["panels"][0].take();
+        let direction: glam::Vec3 = serde_json::from_value(panel["mean_direction"].clone()).unwrap();
+        (panel["angle_deg"].as_f64().unwrap(), direction)
+    };
+    for (options, angle, direction) in [
+        (&[][..], 90.0, glam::Vec3::Y),
+        (&["--panel", "all,source=yarn"], 90.0, glam::Vec3::Y),
+        (&["--panel", "front,angle=0"], 0.0, glam::Vec3::X),
+        (&["--panel", "front,source=along-x"], 0.0, glam::Vec3::X),
+    ] {
+        let found = angle_and_direction(options);
+        assert!(found.0 == angle && (found.1 - direction).length() < 1e-3, "{options:?}: {found:?}");
+    }
+}
+
 #[test]
 fn what_is_not_there_yet_is_refused_as_such() {
     let folder = scratch();
@@ -213,6 +255,9 @@ fn bad_input_gives_one_line_that_names_file_and_reason() {
         (&["inspect", "noise.amc.ktx2"], "noise.amc.ktx2"),
         (&["inspect", "mystery.xyz"], "mystery.xyz"),
         (&["inspect", "shape:cube"], "torus"),
+        (&["inspect", "garment:crinoline"], "no garment 'crinoline' is bundled: there are "),
+        (&["render", "shape:torus", "-o", "a.png", "--amc", "fabric:felt"], "satin, changeant"),
+        (&["render", "shape:torus", "-o", "a.png", "--panel", "all,amc=fabric:felt"], "no fabric \"felt\""),
         (&["render", "shape:disc-radial", "-o", "a.png", "--camera", "camera.json"], "camera.json"),
         (&["render", "shape:disc-radial", "-o", "a.png", "--panel", "sleeve,angle=3"], "sleeve"),
         (&["bake", "reflectance.json", "-o", "a.amc.ktx2"], "gold leaf"),

@@ -102,6 +102,7 @@ fn garment() -> Garment {
             takes_fabric: true,
             area: 1.0,
             flags: Default::default(),
+            pattern: Default::default(),
         });
     }
     garment

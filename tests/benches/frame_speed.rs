@@ -138,7 +138,7 @@ fn sheet(fabric: Arc<Amc>) -> Drawing {
                 normal: (-slope).extend(1.0).normalize_or(Vec3::Z),
                 tangent: Vec3::new(1.0, 0.0, slope.x).normalize_or(Vec3::X),
                 uv,
-                occlusion: 0.9 + 0.1 * phase.x.sin(),
+                occlusion: Vec2::splat(0.9 + 0.1 * phase.x.sin()),
             });
         }
     }

@@ -58,7 +58,12 @@ pub fn obj(bytes: &[u8]) {
 /// Whatever a reader lets through must stand the whole way to directions.
 fn cut_into_panels(mesh: Mesh) {
     if let Ok(garment) = Garment::new(mesh) {
-        let directions = vec![amc_core::direction::Direction::default(); garment.panels.len()];
+        let along_grain = amc_core::direction::Direction::along_grain;
+        let directions: Vec<_> = garment.panels.iter().map(along_grain).collect();
+        for pattern in garment.panels.iter().map(|panel| &panel.pattern) {
+            let partners = pattern.seams.iter().map(|seam| seam.partner).chain(pattern.mirror);
+            assert!(partners.max().is_none_or(|partner| partner < garment.panels.len()));
+        }
         let tangents =
             amc_core::direction::tangents(&garment, &directions).expect("a checked garment has directions");
         for tangent in &tangents.vectors {

@@ -147,7 +147,8 @@ fn drawing(name: &str, fabric: Arc<Amc>) -> Drawing {
     let garment = Garment::new(mesh).unwrap();
     let directions = vec![Direction::default(); garment.panels.len()];
     let vectors = tangents(&garment, &directions).unwrap().vectors;
-    let occlusion: Vec<f32> = garment.positions.iter().map(|p| 0.75 + 0.25 * (5.0 * p.y).sin()).collect();
+    let light = |p: &Vec3| Vec2::new(0.75 + 0.25 * (5.0 * p.y).sin(), 0.75 + 0.25 * (7.0 * p.x).cos());
+    let occlusion: Vec<Vec2> = garment.positions.iter().map(light).collect();
     Drawing::new(&garment, &vectors, Some(&occlusion), vec![fabric], |_| Cloth::Fabric(0)).unwrap()
 }
 
@@ -234,7 +235,7 @@ fn coarse_triangles_backs_and_plain_parts(backend: Backend) {
         normal: Vec3::new(0.2 * position.x, 0.3 * position.y, 1.0).normalize_or(Vec3::Z),
         tangent,
         uv: Vec2::new(position.x, position.y),
-        occlusion: 0.5 + 0.5 * position.x,
+        occlusion: Vec2::new(0.5 + 0.5 * position.x, 0.5 - 0.5 * position.y),
     };
     let angle = |k: u32| std::f32::consts::TAU * k as f32 / 9.0;
     drawing.vertices = (0..9)

@@ -1,8 +1,8 @@
 //! The build: pictures to texels, texels along the turn to slices.
 
 use std::path::Path;
-use std::sync::LazyLock;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{LazyLock, Mutex};
 
 use glam::DVec2;
 use half::f16;
@@ -20,7 +20,7 @@ use super::symmetry::{self, Analysis, DEFAULT_THRESHOLD};
 use super::turn::{Direction, Spline, Stack, reading_turn};
 use crate::amc::{Amc, Frame, Symmetry, TableSize, TexelFormat, Texels};
 use crate::color::srgb8_from_linear;
-use crate::image::decode::{Raster, read_raster};
+use crate::image::decode::{MOST_BYTES, Raster, decode_reusing};
 use crate::view_space::Azimuth;
 use crate::{Error, Progress, Result};
 
@@ -98,7 +98,7 @@ pub struct Built {
 pub fn build(source: &Path, options: &BuildOptions, progress: &Progress<'_>) -> Result<Built> {
     check(options)?;
     let plan = Plan::of(source, options.turn)?;
-    let reading = Reading { plan: &plan, progress, done: AtomicUsize::new(0) };
+    let reading = Reading { plan: &plan, progress, done: AtomicUsize::new(0), buffers: Mutex::default() };
     let (first, mut kept) = reading.keep()?;
     let lens = Lens::new(options.horizontal_fov, first.width(), first.height())?;
     let (sight, residual) = match options.sphere {
@@ -106,7 +106,13 @@ pub fn build(source: &Path, options: &BuildOptions, progress: &Progress<'_>) -> 
         None => {
             let rasters: Vec<&Raster> = kept.iter().map(|(_, raster)| raster).collect();
             // The search is mostly one thread's work: the others read on meanwhile.
-            let (found, ahead) = rayon::join(|| ball::find(&rasters, lens), || reading.ahead(&first, &kept));
+            let searching = AtomicBool::new(true);
+            let search = || {
+                let found = ball::find(&rasters, lens);
+                searching.store(false, Ordering::Relaxed);
+                found
+            };
+            let (found, ahead) = rayon::join(search, || reading.ahead(&first, &kept, &searching));
             let found = found.map_err(|error| error.in_file(source))?;
             kept.extend(ahead?);
             (found.sight, Some(found.residual))
@@ -249,14 +255,28 @@ struct Reading<'a> {
     plan: &'a Plan,
     progress: &'a Progress<'a>,
     done: AtomicUsize,
+    /// Memory of pictures that are done with: about one for each thread.
+    buffers: Mutex<Vec<Vec<u8>>>,
 }
 
 impl<'a> Reading<'a> {
+    /// The texels of a picture, which is done with.
+    fn texels(&self, footprints: &Footprints, raster: Raster) -> Vec<f16> {
+        let texels = footprints.resample(&raster);
+        if let (Some(buffer), Ok(mut buffers)) = (raster.into_buffer(), self.buffers.lock()) {
+            buffers.push(buffer);
+        }
+        texels
+    }
+
     fn read(&self, planned: &Planned) -> Result<Raster> {
         if self.progress.is_cancelled() {
             return Err(Error::cancelled());
         }
-        let raster = read_raster(&planned.path)?;
+        let bytes = crate::file::read(&planned.path, MOST_BYTES)?;
+        let buffer = self.buffers.lock().map_or_else(|_| None, |mut buffers| buffers.pop());
+        let raster = decode_reusing(&bytes, buffer.unwrap_or_default())
+            .map_err(|error| error.in_file(&planned.path))?;
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         self.progress.step("reading pictures", done, self.plan.pictures.len())?;
         Ok(raster)
@@ -272,8 +292,7 @@ impl<'a> Reading<'a> {
             size: [raster.width(), raster.height()],
             has_alpha: raster.has_alpha(),
         };
-        let bytes = u64::from(raster.width()) * u64::from(raster.height()) * u64::from(raster.channels());
-        let kept = ((KEPT_BYTES / bytes.max(1)) as usize).clamp(3, KEPT).min(pictures.len());
+        let kept = ((KEPT_BYTES / raster.bytes().max(1)) as usize).clamp(3, KEPT).min(pictures.len());
         let others: Vec<usize> = (1..kept).map(|k| k * pictures.len() / kept).collect();
         let mut rasters: Vec<(usize, Raster)> =
             others.par_iter().map(|&k| self.read_like(&first, k)).collect::<Result<_>>()?;
@@ -281,11 +300,19 @@ impl<'a> Reading<'a> {
         Ok((first, rasters))
     }
 
-    /// Reads as many pictures more as are kept already.
-    fn ahead(&self, first: &First<'_>, kept: &[(usize, Raster)]) -> Result<Vec<(usize, Raster)>> {
+    /// Reads pictures more while the search goes on, at most [`KEPT_BYTES`] of them.
+    fn ahead(
+        &self,
+        first: &First<'_>,
+        kept: &[(usize, Raster)],
+        searching: &AtomicBool,
+    ) -> Result<Vec<(usize, Raster)>> {
+        let bytes = kept.first().map_or(1, |(_, raster)| raster.bytes());
+        let most = (KEPT_BYTES / bytes.max(1)) as usize;
         let others = (0..self.plan.pictures.len()).filter(|k| kept.iter().all(|(other, _)| other != k));
-        let next: Vec<usize> = others.take(kept.len()).collect();
-        next.par_iter().map(|&k| self.read_like(first, k)).collect()
+        let next: Vec<usize> = others.take(most).collect();
+        let read = |&k: &usize| searching.load(Ordering::Relaxed).then(|| self.read_like(first, k));
+        next.par_iter().with_max_len(1).filter_map(read).collect()
     }
 
     /// Reads a picture that must be of the first one's size.
@@ -305,15 +332,16 @@ impl<'a> Reading<'a> {
     ) -> Result<Stack> {
         let mut texels: Vec<Option<Vec<f16>>> = vec![None; self.plan.pictures.len()];
         let from_kept: Vec<(usize, Vec<f16>)> =
-            kept.into_par_iter().map(|(k, raster)| (k, footprints.resample(&raster))).collect();
+            kept.into_par_iter().map(|(k, raster)| (k, self.texels(footprints, raster))).collect();
         for (k, resampled) in from_kept {
             texels[k] = Some(resampled);
         }
-        texels.par_iter_mut().zip(&self.plan.pictures).try_for_each(|(texels, planned)| {
+        // One at a time, or a thread that is done early waits for several of another's.
+        texels.par_iter_mut().with_max_len(1).zip(&self.plan.pictures).try_for_each(|(texels, planned)| {
             if texels.is_none() {
                 let raster = self.read(planned)?;
                 check_size(first, &planned.path, &raster)?;
-                *texels = Some(footprints.resample(&raster));
+                *texels = Some(self.texels(footprints, raster));
             }
             Ok(())
         })?;
@@ -470,23 +498,25 @@ impl Slicing<'_> {
         empty: T,
         encode: impl Fn([f16; 3], f32) -> T + Sync,
     ) -> Vec<T> {
-        let colour = |texel: usize, slice: usize| {
-            let block = &blocks[texel / BLOCK];
-            block.colours[slice * block.shown.len() + texel % BLOCK]
-        };
         let mut texels = vec![empty; self.size.texels()];
         texels.par_chunks_mut(self.size.slice_texels()).enumerate().for_each(|(slice, texels)| {
-            for (k, texel) in self.footprints.texels.iter().enumerate() {
+            let mut halves: Vec<[f16; 3]> = Vec::with_capacity(self.footprints.texels.len());
+            for block in blocks {
+                let count = block.shown.len();
+                halves.extend_from_slice(&block.colours[slice * count..][..count]);
+            }
+            for ((texel, half), &shown) in self.footprints.texels.iter().zip(&halves).zip(shown) {
                 let at = (texel.j * self.size.side() + texel.i) as usize;
                 // Full only where every picture showed it.
-                texels[at] =
-                    encode(colour(k, slice), if shown[k] >= 1.0 { 1.0 } else { 0.5 + shown[k] * 0.49 });
+                texels[at] = encode(*half, if shown >= 1.0 { 1.0 } else { 0.5 + shown * 0.49 });
             }
+            let mut colours = vec![[0.0f32; 3]; halves.len()];
+            halves.as_flattened().convert_to_f32_slice(colours.as_flattened_mut());
             fill.each(|at, sources| {
                 let mut sum = [0.0; 3];
                 for &(texel, weight) in sources {
-                    for (sum, value) in sum.iter_mut().zip(colour(texel as usize, slice)) {
-                        *sum += weight * value.to_f32();
+                    for (sum, value) in sum.iter_mut().zip(colours[texel as usize]) {
+                        *sum += weight * value;
                     }
                 }
                 texels[at] = encode(sum.map(f16::from_f32), RimFill::ALPHA);

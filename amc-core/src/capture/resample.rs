@@ -169,12 +169,16 @@ impl Footprints {
             start = end;
             if !C.is_multiple_of(2) {
                 // The weights sum to 1.
-                colours.extend([r, g, b].map(|value| value.clamp(0.0, MOST_LIGHT)));
+                colours.extend([r, g, b]);
             } else if f64::from(a) < LEAST_SEEN {
                 colours.extend([f32::NAN; 3]);
             } else {
-                colours.extend([r, g, b].map(|value| (value / a).clamp(0.0, MOST_LIGHT)));
+                colours.extend([r / a, g / a, b / a]);
             }
+        }
+        // Apart from the sums, where it would keep them from the registers.
+        for value in &mut colours {
+            *value = value.clamp(0.0, MOST_LIGHT);
         }
         colours
     }
@@ -240,7 +244,7 @@ impl View<'_> {
     /// Adds the runs of the pixels under the parallelogram; gives the share of it that they cover.
     fn cover(&self, row: &mut Row, centre: DVec2, cell: DMat2) -> f64 {
         let (u, v) = (cell.x_axis / 2.0, cell.y_axis / 2.0);
-        let corners = [centre - u - v, centre + u - v, centre + u + v, centre - u + v];
+        let sides = sides([centre - u - v, centre + u - v, centre + u + v, centre - u + v]);
         let area = 4.0 * u.perp_dot(v).abs();
         let reach = DVec2::new(u.x.abs() + v.x.abs(), u.y.abs() + v.y.abs());
         let whole = self.sight.depth(centre) > self.rim + reach.length() + 1.0;
@@ -249,7 +253,7 @@ impl View<'_> {
         let mut covered = 0.0;
         let mut y = low.floor();
         while y < high {
-            covered += self.cover_row(row, &corners, y, (low.max(y), high.min(y + 1.0)), whole, area);
+            covered += self.cover_row(row, &sides, y, (low.max(y), high.min(y + 1.0)), whole, area);
             y += 1.0;
         }
         covered
@@ -259,7 +263,7 @@ impl View<'_> {
     fn cover_row(
         &self,
         row: &mut Row,
-        corners: &[DVec2; 4],
+        sides: &[Side; 4],
         y: f64,
         (low, high): (f64, f64),
         whole: bool,
@@ -269,7 +273,7 @@ impl View<'_> {
         const SLABS: usize = 3;
         let spans: [(f64, f64); SLABS] = std::array::from_fn(|k| {
             let at = low + (high - low) * (k as f64 + 0.5) / SLABS as f64;
-            let (left, right) = span(corners, at);
+            let (left, right) = span(sides, at);
             (left.max(0.0), right.min(f64::from(self.width)))
         });
         let left = spans.iter().map(|span| span.0).fold(f64::MAX, f64::min);
@@ -300,13 +304,31 @@ impl View<'_> {
     }
 }
 
-/// Where a horizontal line crosses a convex polygon.
-fn span(corners: &[DVec2; 4], y: f64) -> (f64, f64) {
-    let mut span = (f64::MAX, f64::MIN);
-    for k in 0..4 {
+/// A side of a cell: the heights between which it runs, and where it is at each.
+#[derive(Clone, Copy)]
+struct Side {
+    low: f64,
+    high: f64,
+    /// Where it would cross height 0, and by how much it moves per height.
+    at_zero: f64,
+    slope: f64,
+}
+
+fn sides(corners: [DVec2; 4]) -> [Side; 4] {
+    std::array::from_fn(|k| {
         let (a, b) = (corners[k], corners[(k + 1) % 4]);
-        if (a.y <= y) != (b.y <= y) {
-            let x = a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y);
+        // A level side is never crossed.
+        let slope = if a.y == b.y { 0.0 } else { (b.x - a.x) / (b.y - a.y) };
+        Side { low: a.y.min(b.y), high: a.y.max(b.y), at_zero: a.x - a.y * slope, slope }
+    })
+}
+
+/// Where a horizontal line crosses a convex polygon.
+fn span(sides: &[Side; 4], y: f64) -> (f64, f64) {
+    let mut span = (f64::MAX, f64::MIN);
+    for side in sides {
+        if side.low <= y && y < side.high {
+            let x = side.at_zero + y * side.slope;
             span = (span.0.min(x), span.1.max(x));
         }
     }

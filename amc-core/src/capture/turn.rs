@@ -24,6 +24,8 @@ pub(super) struct Spline {
     rates: Vec<f64>,
     /// The interval in which each bin of the turn starts.
     bins: Vec<u32>,
+    /// Pictures per radian, where all steps are equal: no interval has to be looked up.
+    even_rate: Option<f64>,
     /// The cyclic tridiagonal system of the second derivatives, factored (Thomas, Sherman and Morrison).
     system: System,
 }
@@ -60,7 +62,8 @@ impl Spline {
             .map(|bin| turns.partition_point(|&turn| turn <= bin_start(bin)).saturating_sub(1) as u32)
             .collect();
         let rates = gaps.iter().map(|gap| 1.0 / (gap * step)).collect();
-        Self { start, system: System::new(&gaps), turns, gaps, rates, bins }
+        let even_rate = all_within(&gaps, SAME_STEP).then(|| count as f64 / TAU);
+        Self { start, system: System::new(&gaps), turns, gaps, rates, bins, even_rate }
     }
 
     /// How many pictures.
@@ -70,22 +73,21 @@ impl Spline {
 
     /// Whether the turns are even, to a hundredth of a step.
     pub(super) fn is_even(&self) -> bool {
-        self.gaps.iter().all(|gap| (gap - 1.0).abs() < 0.01)
+        all_within(&self.gaps, 0.01)
     }
 
     /// The spline, over twice the turn, through the means of pictures half a turn apart; none where the pictures do not
     /// come in such pairs, at even steps.
     pub(super) fn of_half_turns(&self) -> Option<Self> {
         let count = self.len();
-        // What steps of 1/1000000 of the mean one are off by, no picture shows.
-        let even = self.gaps.iter().all(|gap| (gap - 1.0).abs() < 1e-6);
         // A spline needs three.
-        (even && count.is_multiple_of(2) && count >= 6).then(|| {
+        (self.even_rate.is_some() && count.is_multiple_of(2) && count >= 6).then(|| {
             Self::new(self.turns[..count / 2].iter().map(|turn| 2.0 * (turn + self.start)).collect())
         })
     }
 
     /// Where a turn in radians lies.
+    #[inline]
     pub(super) fn position(&self, turn: f64) -> Position {
         let mut turn = turn - self.start;
         // Nearly always within one turn of the range: no division.
@@ -96,6 +98,9 @@ impl Spline {
         }
         if !(0.0..TAU).contains(&turn) {
             turn -= TAU * (turn / TAU).floor();
+        }
+        if let Some(rate) = self.even_rate {
+            return self.even_position(turn * rate);
         }
         let count = self.turns.len();
         let bin = ((turn * (self.bins.len() as f64 / TAU)) as usize).min(self.bins.len() - 1);
@@ -109,6 +114,18 @@ impl Spline {
         let before = 1.0 - along;
         let bend = |x: f64| ((x * x * x - x) * gap * gap / 6.0) as f32;
         Position { first, second, value: [before as f32, along as f32], bend: [bend(before), bend(along)] }
+    }
+
+    /// Where a turn lies, counted in even steps from the first.
+    #[inline]
+    fn even_position(&self, steps: f64) -> Position {
+        let count = self.turns.len();
+        let first = (steps as usize).min(count - 1);
+        let second = if first + 1 == count { 0 } else { first + 1 };
+        let along = (steps - first as f64).clamp(0.0, 1.0) as f32;
+        let before = 1.0 - along;
+        let bend = |x: f32| (x * x - 1.0) * x / 6.0;
+        Position { first, second, value: [before, along], bend: [bend(before), bend(along)] }
     }
 
     /// The mean, over all turns, of the squared weights with which measured values enter an interpolated one: what
@@ -137,6 +154,13 @@ impl Spline {
     }
 }
 
+/// Steps that differ by less than this share of the mean one are the same: no picture shows it.
+const SAME_STEP: f64 = 1e-6;
+
+fn all_within(gaps: &[f64], share: f64) -> bool {
+    gaps.iter().all(|gap| (gap - 1.0).abs() < share)
+}
+
 impl Curves {
     pub(super) fn at(&self, position: &Position, lane: usize) -> f32 {
         let (a, b) = (position.first * self.lanes + lane, position.second * self.lanes + lane);
@@ -147,6 +171,7 @@ impl Curves {
     }
 
     /// The colour of the texel whose red is in `lane`; light is never negative.
+    #[inline]
     pub(super) fn colour(&self, position: &Position, lane: usize) -> [f32; 3] {
         let row = |of: &[f32], picture: usize| -> [f32; 3] {
             let start = picture * self.lanes + lane;
@@ -329,6 +354,7 @@ impl Direction {
 ///
 /// In the pictures the tangent is constant in the projection at the true normal m; the turn that takes m to the
 /// table's n leaves the transported azimuth as it is.
+#[inline]
 pub(super) fn reading_turn(texel: &Texel, azimuth: Azimuth, direction: &Direction) -> f64 {
     match azimuth {
         Azimuth::Transported => projected_at(texel.m, direction.cos, direction.sin),
@@ -343,6 +369,7 @@ pub(super) fn reading_turn(texel: &Texel, azimuth: Azimuth, direction: &Directio
 }
 
 /// The projected azimuth, at the normal m, of the tangent whose transported azimuth has this cosine and sine.
+#[inline]
 fn projected_at(m: DVec3, cos: f32, sin: f32) -> f64 {
     let m = m.as_vec3();
     let d = (m.x * cos + m.y * sin) / (1.0 + m.z);

@@ -14,6 +14,8 @@ pub use tangents::{Tangents, tangents};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use crate::mesh::Panel;
+
 /// Where a panel's direction comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -58,4 +60,11 @@ pub struct Direction {
     /// Radians in the flat pattern, counter-clockwise from +u as drawn with v up: 0 is the paper's grad U, a quarter
     /// turn swaps warp and weft.
     pub angle: f32,
+}
+
+impl Direction {
+    /// The direction of a panel that nobody has given one: along its grain, where the file says it, else along +u.
+    pub fn along_grain(panel: &Panel) -> Self {
+        Self { source: Source::default(), angle: panel.pattern.grain.unwrap_or_default() }
+    }
 }

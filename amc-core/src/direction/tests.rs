@@ -25,6 +25,7 @@ pub(crate) fn garment_of(meshes: &[Mesh]) -> Garment {
             takes_fabric: true,
             area: 0.0,
             flags: Default::default(),
+            pattern: Default::default(),
         });
     }
     if !garment.has_uvs {

@@ -1,45 +1,82 @@
-//! Directions as the tangents of a glTF 2.0 binary.
+//! A glTF 2.0 binary of one mesh and one node per panel.
 
 use std::io::Write;
 
+use bytemuck::Pod;
 use glam::{Vec2, Vec3};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::{GENERATOR, Piece};
+use super::{GENERATOR, PanelMesh};
 use crate::{Error, Result};
 
-/// `componentType` of 32-bit floats and unsigned integers, `target` of vertices and indices.
+/// `componentType` of floats and unsigned integers, `target` of vertices and indices.
 const FLOAT: u32 = 5126;
+const UNSIGNED_SHORT: u32 = 5123;
 const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
 /// The buffer, and what the document says of it.
-#[derive(Default)]
-struct Builder {
+#[derive(Debug, Default)]
+pub(super) struct Glb {
     bytes: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
+    meshes: Vec<Value>,
 }
 
-impl Builder {
-    /// Appends numbers of four bytes each as a view and an accessor of their own; returns the accessor's index.
-    fn add<T: bytemuck::Pod>(&mut self, numbers: &[T], component: u32, kind: &str) -> usize {
-        let bytes: &[u8] = bytemuck::cast_slice(numbers);
-        let target = if component == UNSIGNED_INT { ELEMENT_ARRAY_BUFFER } else { ARRAY_BUFFER };
+/// What a panel has beyond positions and normals.
+#[derive(Debug, Default)]
+pub(super) struct Attributes {
+    accessors: Map<String, Value>,
+}
+
+impl Glb {
+    /// Appends floats, `kind` of them (`VEC4`) a vertex, for the attribute `name`.
+    pub(super) fn add<T: Pod>(&mut self, to: &mut Attributes, name: &str, kind: &str, vectors: &[T]) {
+        let accessor = self.accessor(vectors, FLOAT, kind, ARRAY_BUFFER);
+        to.accessors.insert(name.to_owned(), json!(accessor));
+    }
+
+    /// Appends UVs, given with v up, with v down as glTF has it.
+    pub(super) fn add_uvs(&mut self, to: &mut Attributes, name: &str, mut uvs: Vec<Vec2>) {
+        uvs.iter_mut().for_each(|uv| *uv = Vec2::new(uv.x, 1.0 - uv.y));
+        self.add(to, name, "VEC2", &uvs);
+    }
+
+    /// Appends a panel as a mesh of one primitive.
+    pub(super) fn add_panel(&mut self, mesh: &PanelMesh<'_>, attributes: Attributes, extras: Value) {
+        let mut all = json!({ "POSITION": self.positions(&mesh.positions) });
+        let normals = self.accessor(&mesh.normals, FLOAT, "VEC3", ARRAY_BUFFER);
+        all["NORMAL"] = json!(normals);
+        for (name, accessor) in attributes.accessors {
+            all[name] = accessor;
+        }
+        let indices = self.indices(mesh.triangles.as_flattened(), mesh.positions.len());
+        self.meshes.push(json!({
+            "name": mesh.panel.name,
+            "primitives": [{ "attributes": all, "indices": indices, "material": 0, "extras": extras }],
+        }));
+    }
+
+    /// Appends items as a view and an accessor of their own; returns the accessor's index.
+    fn accessor<T: Pod>(&mut self, items: &[T], component: u32, kind: &str, target: u32) -> usize {
+        let bytes: &[u8] = bytemuck::cast_slice(items);
         self.accessors.push(json!({
-            "bufferView": self.views.len(), "componentType": component, "type": kind, "count": numbers.len()
+            "bufferView": self.views.len(), "componentType": component, "type": kind, "count": items.len()
         }));
         self.views.push(json!({
             "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len(), "target": target
         }));
         self.bytes.extend_from_slice(bytes);
+        // A view of floats begins at a multiple of four bytes.
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
         self.accessors.len() - 1
     }
 
-    /// [`Builder::add`], with the least and largest of each component, which positions must have.
-    fn add_positions(&mut self, positions: &[Vec3]) -> usize {
-        let index = self.add(positions, FLOAT, "VEC3");
+    /// Positions have their accessor say the least and largest of each component.
+    fn positions(&mut self, positions: &[Vec3]) -> usize {
+        let index = self.accessor(positions, FLOAT, "VEC3", ARRAY_BUFFER);
         let least = positions.iter().copied().reduce(Vec3::min).unwrap_or_default();
         let largest = positions.iter().copied().reduce(Vec3::max).unwrap_or_default();
         self.accessors[index]["min"] = json!(least.as_dvec3().to_array());
@@ -47,79 +84,71 @@ impl Builder {
         index
     }
 
-    fn add_primitive(&mut self, piece: &Piece<'_>) -> Value {
-        let mut attributes = json!({
-            "POSITION": self.add_positions(&piece.positions),
-            "NORMAL": self.add(&piece.normals, FLOAT, "VEC3"),
-            "TANGENT": self.add(&piece.tangents, FLOAT, "VEC4"),
-        });
-        for (name, uvs) in [("TEXCOORD_0", piece.turned_uvs()), ("TEXCOORD_1", piece.uvs.clone())] {
-            if let Some(mut uvs) = uvs {
-                uvs.iter_mut().for_each(|uv| *uv = Vec2::new(uv.x, 1.0 - uv.y));
-                attributes[name] = json!(self.add(&uvs, FLOAT, "VEC2"));
-            }
+    /// Indices in 16 bits where they fit; the largest number of 16 bits is no index in glTF.
+    fn indices(&mut self, corners: &[u32], vertices: usize) -> usize {
+        if vertices <= usize::from(u16::MAX) {
+            let short: Vec<u16> = corners.iter().map(|&corner| corner as u16).collect();
+            self.accessor(&short, UNSIGNED_SHORT, "SCALAR", ELEMENT_ARRAY_BUFFER)
+        } else {
+            self.accessor(corners, UNSIGNED_INT, "SCALAR", ELEMENT_ARRAY_BUFFER)
         }
-        json!({
-            "attributes": attributes,
-            "indices": self.add(piece.triangles.as_flattened(), UNSIGNED_INT, "SCALAR"),
-            "material": 0,
-            "extras": {
-                "id": piece.panel.id,
-                "name": piece.panel.name,
-                "source": piece.direction.source,
-                "angle_deg": piece.angle_deg(),
-                "takes_fabric": piece.panel.takes_fabric,
-            },
-        })
+    }
+
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// No panel, more than a GLB can hold, or `out` refuses.
+    pub(super) fn write(self, out: &mut dyn Write) -> Result<()> {
+        if self.meshes.is_empty() {
+            return Err(Error::invalid("there is no triangle to export"));
+        }
+        let nodes: Vec<Value> = (self.meshes.iter().enumerate())
+            .map(|(index, mesh)| json!({"name": mesh["name"], "mesh": index}))
+            .collect();
+        let document = json!({
+            "asset": {"version": "2.0", "generator": GENERATOR},
+            "scene": 0,
+            "scenes": [{"nodes": (0..nodes.len()).collect::<Vec<_>>()}],
+            "nodes": nodes,
+            "meshes": self.meshes,
+            // Cloth is seen from both sides.
+            "materials": [{"name": "cloth", "doubleSided": true}],
+            "accessors": self.accessors,
+            "bufferViews": self.views,
+            "buffers": [{"byteLength": self.bytes.len()}],
+        });
+        let mut text = document.to_string().into_bytes();
+        text.resize(text.len().next_multiple_of(4), b' ');
+        let length = |bytes: usize| u32::try_from(bytes).map_err(|_| too_large());
+        let header: [&[u8]; 7] = [
+            b"glTF",
+            &2u32.to_le_bytes(),
+            &length(12 + 8 + text.len() + 8 + self.bytes.len())?.to_le_bytes(),
+            &length(text.len())?.to_le_bytes(),
+            b"JSON",
+            &text,
+            &length(self.bytes.len())?.to_le_bytes(),
+        ];
+        for bytes in header.into_iter().chain([&b"BIN\0"[..], &self.bytes]) {
+            out.write_all(bytes).map_err(|source| Error::io("cannot write", source))?;
+        }
+        Ok(())
     }
 }
 
-pub(super) fn write(pieces: &[Piece<'_>], out: &mut dyn Write) -> Result<()> {
-    if pieces.is_empty() {
-        return Err(Error::invalid("there is no triangle to export"));
-    }
-    // Before a buffer is made that could not be written: 56 bytes a vertex, 12 a triangle.
+/// Refuses meshes that cannot be written, before a buffer is made of them.
+///
+/// # Errors
+/// More than a GLB can hold, at `per_vertex` bytes a vertex.
+pub(super) fn check_size<'a>(
+    meshes: impl Iterator<Item = &'a PanelMesh<'a>>,
+    per_vertex: usize,
+) -> Result<()> {
     let size: u64 =
-        pieces.iter().map(|p| 56 * p.positions.len() as u64 + 12 * p.triangles.len() as u64).sum();
-    let too_large = || Error::too_large("a GLB holds at most 4 GiB: export .obj or .json");
-    if size > u64::from(u32::MAX) {
-        return Err(too_large());
-    }
-    let mut builder = Builder::default();
-    let meshes: Vec<Value> = pieces
-        .iter()
-        .map(|piece| json!({"name": piece.panel.name, "primitives": [builder.add_primitive(piece)]}))
-        .collect();
-    let nodes: Vec<Value> = (pieces.iter().enumerate())
-        .map(|(mesh, piece)| json!({"name": piece.panel.name, "mesh": mesh}))
-        .collect();
-    let document = json!({
-        "asset": {"version": "2.0", "generator": GENERATOR},
-        "scene": 0,
-        "scenes": [{"nodes": (0..nodes.len()).collect::<Vec<_>>()}],
-        "nodes": nodes,
-        "meshes": meshes,
-        // Cloth is seen from both sides.
-        "materials": [{"name": "cloth", "doubleSided": true}],
-        "accessors": builder.accessors,
-        "bufferViews": builder.views,
-        "buffers": [{"byteLength": builder.bytes.len()}],
-    });
-    let mut text = document.to_string().into_bytes();
-    text.resize(text.len().next_multiple_of(4), b' ');
-    // Every number has four bytes, so the binary part is aligned as it is.
-    let length = |bytes: usize| u32::try_from(bytes).map_err(|_| too_large());
-    let header: [&[u8]; 7] = [
-        b"glTF",
-        &2u32.to_le_bytes(),
-        &length(12 + 8 + text.len() + 8 + builder.bytes.len())?.to_le_bytes(),
-        &length(text.len())?.to_le_bytes(),
-        b"JSON",
-        &text,
-        &length(builder.bytes.len())?.to_le_bytes(),
-    ];
-    for bytes in header.into_iter().chain([&b"BIN\0"[..], &builder.bytes]) {
-        out.write_all(bytes).map_err(|source| Error::io("cannot write", source))?;
-    }
-    Ok(())
+        meshes.map(|mesh| (per_vertex * mesh.positions.len() + 12 * mesh.triangles.len()) as u64).sum();
+    if size > u64::from(u32::MAX) { Err(too_large()) } else { Ok(()) }
+}
+
+fn too_large() -> Error {
+    Error::too_large("a GLB holds at most 4 GiB: export another format")
 }

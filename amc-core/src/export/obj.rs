@@ -1,79 +1,71 @@
-//! Directions as the UVs of an OBJ.
+//! Panels as groups of an OBJ.
 
 use std::fmt::Display;
 use std::io::{self, Write};
 
-use super::{GENERATOR, Piece};
-use crate::direction::Source;
-use crate::{Error, Result};
+use glam::Vec2;
 
-pub(super) fn write(pieces: &[Piece<'_>], out: &mut dyn Write) -> Result<()> {
-    for piece in pieces.iter().filter(|piece| piece.panel.takes_fabric) {
-        let here = |why: &str| {
-            Err(Error::unsupported(format!(
-                "an OBJ holds directions as UVs only, and {why}: export .glb or .json"
-            ))
-            .at_element(format!("panel {}", piece.panel.id)))
-        };
-        if matches!(piece.direction.source, Source::Field(_)) {
-            return here("this one is a procedural field");
-        }
-        if piece.uvs.is_none() {
-            return here("there are none");
-        }
-    }
-    write_all(pieces, out).map_err(|source| Error::io("cannot write", source))
+use super::PanelMesh;
+
+/// An OBJ being written: it counts its vertices.
+pub(super) struct Obj<'a> {
+    out: &'a mut dyn Write,
+    /// Vertices so far.
+    vertices: u64,
 }
 
-fn write_all(pieces: &[Piece<'_>], out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "# {GENERATOR}")?;
-    writeln!(
-        out,
-        "# Metres, Y up. The UVs of each group are turned so that +u is the direction of its panel."
-    )?;
-    let mut first = 1;
-    for piece in pieces {
-        let id = one_word(&piece.panel.id);
-        let source = if piece.direction.source == Source::Yarn { "yarn" } else { "gradient" };
-        writeln!(out, "# panel id={id} angle_deg={} source={source}", piece.angle_deg())?;
-        writeln!(out, "g {}", one_word(&piece.panel.name))?;
-        lines(out, "v", piece.positions.iter().map(|p| p.to_array()))?;
-        lines(out, "vn", piece.normals.iter().map(|n| n.to_array()))?;
-        let uvs = piece.turned_uvs();
-        if let Some(uvs) = &uvs {
-            lines(out, "vt", uvs.iter().map(|uv| uv.to_array()))?;
+impl<'a> Obj<'a> {
+    pub(super) fn new(out: &'a mut dyn Write) -> Self {
+        Self { out, vertices: 0 }
+    }
+
+    /// A line that programs pass over.
+    pub(super) fn comment(&mut self, text: impl Display) -> io::Result<()> {
+        writeln!(self.out, "# {text}")
+    }
+
+    /// A panel as a group; without `uvs` there must be none in the whole file, so that their count never runs behind the
+    /// vertices'.
+    pub(super) fn panel(&mut self, mesh: &PanelMesh<'_>, uvs: Option<&[Vec2]>) -> io::Result<()> {
+        writeln!(self.out, "g {}", one_word(&mesh.panel.name))?;
+        self.lines("v", mesh.positions.iter().map(|p| p.to_array()))?;
+        self.lines("vn", mesh.normals.iter().map(|n| n.to_array()))?;
+        if let Some(uvs) = uvs {
+            self.lines("vt", uvs.iter().map(|uv| uv.to_array()))?;
         }
-        for corners in &piece.triangles {
-            write!(out, "f")?;
+        for corners in &mesh.triangles {
+            write!(self.out, "f")?;
             for corner in corners {
-                let k = first + u64::from(*corner);
-                // Without UVs there are none in the whole file, so their count never runs behind the vertices'.
-                if uvs.is_some() { write!(out, " {k}/{k}/{k}")? } else { write!(out, " {k}//{k}")? }
+                let k = self.vertices + 1 + u64::from(*corner);
+                match uvs {
+                    Some(_) => write!(self.out, " {k}/{k}/{k}")?,
+                    None => write!(self.out, " {k}//{k}")?,
+                }
             }
-            writeln!(out)?;
+            writeln!(self.out)?;
         }
-        first += piece.positions.len() as u64;
+        self.vertices += mesh.positions.len() as u64;
+        Ok(())
     }
-    Ok(())
-}
 
-fn lines<const N: usize>(
-    out: &mut dyn Write,
-    keyword: &str,
-    rows: impl Iterator<Item = [impl Display; N]>,
-) -> io::Result<()> {
-    for row in rows {
-        write!(out, "{keyword}")?;
-        for number in row {
-            write!(out, " {number}")?;
+    fn lines<const N: usize>(
+        &mut self,
+        keyword: &str,
+        rows: impl Iterator<Item = [impl Display; N]>,
+    ) -> io::Result<()> {
+        for row in rows {
+            write!(self.out, "{keyword}")?;
+            for number in row {
+                write!(self.out, " {number}")?;
+            }
+            writeln!(self.out)?;
         }
-        writeln!(out)?;
+        Ok(())
     }
-    Ok(())
 }
 
 /// A name as one word on one line, which is all that OBJ can hold.
-fn one_word(name: &str) -> String {
+pub(super) fn one_word(name: &str) -> String {
     let word: String =
         name.chars().map(|c| if c.is_whitespace() || c.is_control() { '_' } else { c }).collect();
     if word.is_empty() { "panel".to_owned() } else { word }

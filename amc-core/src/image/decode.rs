@@ -94,9 +94,27 @@ impl Raster {
         self.channels
     }
 
+    /// What the samples take in memory.
+    pub(crate) fn bytes(&self) -> u64 {
+        let sample = match &self.samples {
+            Samples::U8(_) => 1,
+            Samples::U16(_) => 2,
+            Samples::F32(_) => 4,
+        };
+        self.samples.len() as u64 * sample
+    }
+
     /// The samples.
     pub fn samples(&self) -> &Samples {
         &self.samples
+    }
+
+    /// The memory of 8-bit samples, to use again.
+    pub(crate) fn into_buffer(self) -> Option<Vec<u8>> {
+        match self.samples {
+            Samples::U8(samples) => Some(samples),
+            Samples::U16(_) | Samples::F32(_) => None,
+        }
     }
 
     /// Whether it has an alpha channel.
@@ -185,6 +203,12 @@ impl Format {
 /// No such file, a broken or cut one, one of more than [`MOST_PIXELS`] or of more than its length can justify,
 /// or an EXR sample that is not a finite number. The place is a byte where the decoder tells it.
 pub fn decode(bytes: &[u8]) -> Result<Raster> {
+    decode_reusing(bytes, Vec::new())
+}
+
+/// [`decode`], for many pictures one after the other: where the samples are 8-bit ones of a JPEG they are put into
+/// `buffer`, as [`Raster::into_buffer`] of an earlier one gives it, which saves taking new memory for each.
+pub(crate) fn decode_reusing(bytes: &[u8], buffer: Vec<u8>) -> Result<Raster> {
     if bytes.is_empty() {
         return Err(Error::malformed("the file is empty").at_byte(0));
     }
@@ -193,7 +217,7 @@ pub fn decode(bytes: &[u8]) -> Result<Raster> {
     })?;
     // The decoders are other people's code: should one of them panic on a broken file, it is an error all the same.
     let decoded = catch_unwind(AssertUnwindSafe(|| match format {
-        Format::Jpeg => jpeg::decode(bytes),
+        Format::Jpeg => jpeg::decode(bytes, buffer),
         Format::Png => png::decode(bytes),
         Format::Exr => exr::decode(bytes),
     }));

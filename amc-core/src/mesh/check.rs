@@ -167,7 +167,7 @@ fn turn_winding(draft: &mut Draft, findings: &[Findings]) {
     if !turned.is_empty() {
         draft
             .notices
-            .push(format!("the winding contradicted the normals and was turned in {}", list(&turned)));
+            .push(format!("the winding contradicted the normals and was turned in {}", list(&turned, ", ")));
     }
 }
 
@@ -207,7 +207,8 @@ fn complete_normals(draft: &mut Draft) {
         let names: Vec<String> =
             draft.parts.iter().filter(|part| !part.has_normals).map(|part| part.part.name.clone()).collect();
         normals::compute_missing(draft);
-        let where_ = if given.contains(&true) { format!(" in {}", list(&names)) } else { String::new() };
+        let where_ =
+            if given.contains(&true) { format!(" in {}", list(&names, ", ")) } else { String::new() };
         draft.notices.push(format!(
             "no normals{where_}: computed, with creases where faces meet at more than {} degrees",
             normals::CREASE_DEGREES
@@ -221,7 +222,9 @@ fn note_missing_uvs(draft: &mut Draft) {
     if without.len() == draft.parts.len() {
         draft.notices.push("no UVs: each part is one panel, its direction must be procedural".to_owned());
     } else if !without.is_empty() {
-        draft.notices.push(format!("no UVs in {}: one panel each, direction filled in", list(&without)));
+        draft
+            .notices
+            .push(format!("no UVs in {}: one panel each, direction filled in", list(&without, ", ")));
     }
 }
 
@@ -235,10 +238,10 @@ fn take_fabric_somewhere(draft: &mut Draft) {
     }
 }
 
-/// At most three names, then how many more.
-fn list(names: &[String]) -> String {
-    let shown = names.iter().take(3).cloned().collect::<Vec<_>>().join(", ");
-    if names.len() > 3 { format!("{shown} and {} more parts", names.len() - 3) } else { shown }
+/// At most three items, then how many more.
+pub(super) fn list(items: &[String], between: &str) -> String {
+    let shown = items.iter().take(3).cloned().collect::<Vec<_>>().join(between);
+    if items.len() > 3 { format!("{shown} and {} more", items.len() - 3) } else { shown }
 }
 
 #[cfg(test)]
@@ -252,7 +255,7 @@ mod tests {
             normals: vec![normals; 5],
             uvs: positions.iter().map(|p| p.truncate()).collect(),
             parts: vec![DraftPart {
-                part: Part { name: "cloth".into(), takes_fabric: true },
+                part: Part { name: "cloth".into(), takes_fabric: true, ..Part::default() },
                 vertices: 0..5,
                 triangles: 0..triangles.len(),
                 has_normals: normals != Vec3::ZERO,

@@ -5,8 +5,10 @@
 //! common check makes a [`Mesh`] of it. Panels: islands of the UV map, their vertices parted, their figures measured.
 
 mod check;
+mod cloth_normals;
 mod distortion;
 mod draft;
+pub(crate) mod extras;
 mod fabric_words;
 mod fold;
 mod forest;
@@ -19,6 +21,7 @@ mod mutations;
 mod normals;
 pub mod obj;
 mod panel;
+mod pattern_piece;
 mod read;
 mod sections;
 mod split;
@@ -26,9 +29,11 @@ mod triangulate;
 mod unit;
 mod weld;
 
+pub use cloth_normals::cloth_normals;
 pub use distortion::{Distortion, Percentiles};
 pub(crate) use measure::uv_area;
 pub use panel::{Garment, Panel, PanelFlags};
+pub use pattern_piece::{PatternPiece, Seam};
 pub use read::{FILE_LIMIT, Resolve, read, suffixes};
 pub use unit::Unit;
 
@@ -68,7 +73,8 @@ pub struct Part {
     ///
     /// A part takes none where one of its names in the file (OBJ object, group, material; glTF node, mesh, material)
     /// ends in a word for a body, hair, eyes, shoes, buttons, zippers or the like: "shirt buttons", "Body", but not
-    /// "body suit". In glTF, `"extras": {"amc": {"fabric": true}}` (or `false`) on the primitive, material, mesh or
-    /// node decides instead. Where every part would take none, all of them do.
+    /// "body suit". In glTF, `extras` may decide instead (see [`gltf`]). Where every part would take none, all of them do.
     pub takes_fabric: bool,
+    /// What a sewing pattern says of it; partners are names of parts. Checked when the mesh is cut into panels.
+    pub pattern: PatternPiece<String>,
 }

@@ -109,12 +109,12 @@ pub(super) fn compute_missing(draft: &mut Draft) {
     draft.triangles = out.triangles;
 }
 
-fn face_normal(positions: &[Vec3], triangle: [u32; 3]) -> Vec3 {
+pub(super) fn face_normal(positions: &[Vec3], triangle: [u32; 3]) -> Vec3 {
     vector_area(positions, triangle).map_or(Vec3::ZERO, direction)
 }
 
 /// The angle of a triangle at one of its corners, radians.
-fn corner_angle(positions: &[Vec3], triangle: [u32; 3], corner: usize) -> f32 {
+pub(super) fn corner_angle(positions: &[Vec3], triangle: [u32; 3], corner: usize) -> f32 {
     let at = |k: usize| positions[triangle[(corner + k) % 3] as usize];
     let (p, q) = (at(1) - at(0), at(2) - at(0));
     p.cross(q).length().atan2(p.dot(q))

@@ -10,7 +10,7 @@ use super::identity::{Nameable, identify};
 use super::measure::{Figures, measure};
 use super::sections::{Section, sections};
 use super::split::append_copies;
-use super::{Mesh, Part, islands};
+use super::{Mesh, Part, PatternPiece, islands, pattern_piece};
 use crate::{Error, Result};
 
 /// A mesh cut into panels. Every vertex belongs to one panel and one UV orientation, so that means over a vertex's
@@ -53,6 +53,8 @@ pub struct Panel {
     pub area: f32,
     /// What is unusual about its UVs.
     pub flags: PanelFlags,
+    /// What the file says of it as a piece of a sewing pattern; partners are indices of [`Garment::panels`].
+    pub pattern: PatternPiece<usize>,
 }
 
 /// What is unusual about a panel's UVs.
@@ -71,6 +73,9 @@ impl Garment {
     /// are the same, so a crease in the normals does not cut. A part without UVs is one panel. Vertices are doubled
     /// where triangles of different panels or UV orientations use them, and left out where none does; triangles
     /// without UV area go with their neighbours.
+    ///
+    /// What a sewing pattern says of the parts (see [`PatternPiece`]) goes to their panels; partners that are not there
+    /// and numbers that make no sense are left out, with a notice.
     ///
     /// # Errors
     /// No triangles, or arrays and indices that do not fit together.
@@ -96,7 +101,8 @@ impl Garment {
             drop_unused(&mut mesh, &mut uvs);
         }
         let panels = panels(&mesh.parts, ranges, &found);
-        Ok(Self {
+        let part_of: Vec<u32> = found.iter().map(|island| island.0).collect();
+        let mut garment = Self {
             positions: mesh.positions,
             normals: mesh.normals,
             uvs,
@@ -105,7 +111,9 @@ impl Garment {
             panels,
             file_vertices: mesh.file_vertices,
             notices: mesh.notices,
-        })
+        };
+        pattern_piece::assign(&mut garment, &mesh.parts, &part_of);
+        Ok(garment)
     }
 }
 
@@ -208,6 +216,7 @@ fn panels(parts: &[Part], ranges: Vec<Range<u32>>, islands: &[(u32, usize, &Figu
             takes_fabric: parts[part as usize].takes_fabric,
             area: figures.area,
             flags: figures.flags,
+            pattern: PatternPiece::default(),
         })
         .collect()
 }

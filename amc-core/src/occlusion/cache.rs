@@ -2,12 +2,14 @@
 
 use std::path::Path;
 
+use glam::Vec2;
+
 use super::{Options, compute};
 use crate::mesh::Garment;
 use crate::{Error, Progress, Result, file};
 
 /// The first bytes of a cache file; raised when the way occlusion is computed changes, for it goes into the key.
-const MAGIC: &[u8; 8] = b"AMCOCC01";
+const MAGIC: &[u8; 8] = b"AMCOCC02";
 /// Magic and the BLAKE3 hash of the numbers that follow.
 const HEAD: usize = 8 + 32;
 
@@ -23,7 +25,7 @@ pub fn cached(
     options: Options,
     folder: &Path,
     progress: &Progress<'_>,
-) -> Result<Vec<f32>> {
+) -> Result<Vec<Vec2>> {
     let path = folder.join(format!("{}.occlusion", key(garment, options).to_hex()));
     if path.exists() {
         match read(&path, garment.positions.len()) {
@@ -50,8 +52,8 @@ fn key(garment: &Garment, options: Options) -> blake3::Hash {
     hasher.finalize()
 }
 
-fn read(path: &Path, vertices: usize) -> Result<Vec<f32>> {
-    let expected = HEAD + 4 * vertices;
+fn read(path: &Path, vertices: usize) -> Result<Vec<Vec2>> {
+    let expected = HEAD + 8 * vertices;
     let bytes = file::read(path, expected as u64)?;
     let damaged = |what: &str| Error::malformed(what).in_file(path);
     let (head, numbers) = bytes.split_at_checked(HEAD).ok_or_else(|| damaged("it is cut short"))?;
@@ -61,13 +63,14 @@ fn read(path: &Path, vertices: usize) -> Result<Vec<f32>> {
     if head[MAGIC.len()..] != *blake3::hash(numbers).as_bytes() {
         return Err(damaged("its checksum is wrong"));
     }
-    Ok(numbers.as_chunks().0.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect())
+    let numbers: Vec<f32> = numbers.as_chunks().0.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
+    Ok(numbers.as_chunks().0.iter().map(|&sides| Vec2::from_array(sides)).collect())
 }
 
-fn save(path: &Path, folder: &Path, open: &[f32]) -> Result<()> {
+fn save(path: &Path, folder: &Path, open: &[Vec2]) -> Result<()> {
     std::fs::create_dir_all(folder)
         .map_err(|source| Error::io("cannot make the folder", source).in_file(folder))?;
-    let numbers: Vec<u8> = open.iter().flat_map(|open| open.to_le_bytes()).collect();
+    let numbers: Vec<u8> = open.iter().flat_map(|open| open.to_array()).flat_map(f32::to_le_bytes).collect();
     let mut bytes = MAGIC.to_vec();
     bytes.extend(blake3::hash(&numbers).as_bytes());
     bytes.extend(numbers);

@@ -1,7 +1,8 @@
-//! Ambient occlusion per vertex: how much of the sky the cloth leaves open.
+//! Ambient occlusion per vertex: how much of the sky the cloth leaves open, on its front and on its back.
 //!
 //! Source: the paper's section 6.1, which multiplies the MatCap's colour by it. Rays over the hemisphere of a vertex's
 //! normal, more of them where the cosine is larger, so the share that meets nothing is the cosine-weighted open sky.
+//! Cloth is seen from both sides, and a fold that hides one leaves the other open: so both are measured.
 
 mod cache;
 #[cfg(test)]
@@ -51,28 +52,31 @@ const HALF_SIDE: f64 = 4096.0;
 /// The least step along the normal, in the scaled garment: some hundred roundings.
 const LEAST_STEP: f32 = 0.04;
 
-/// The open share of the sky at every vertex, 0 (closed) to 1 (open); the cloth blocks from both sides and at any
-/// distance.
+/// The open share of the sky at every vertex, 0 (closed) to 1 (open), on the side of its normal and on the other; the
+/// cloth blocks from both sides and at any distance.
 ///
-/// A ray starts a little off the surface on the side of the normal, and a little towards the middle of the vertex's
+/// A ray starts a little off the surface on its side, and a little towards the middle of the vertex's
 /// triangles: a vertex at the foot of a wall stands clear of it, on its own side. Vertices at the same position use the
 /// same rays, so seams do not show. The same garment gives the same numbers on any machine with the same arithmetic.
 ///
 /// # Errors
 /// Cancelled, [`Options::rays`] out of range, or indices that reach past the vertices.
-pub fn compute(garment: &Garment, options: Options, progress: &Progress<'_>) -> Result<Vec<f32>> {
+pub fn compute(garment: &Garment, options: Options, progress: &Progress<'_>) -> Result<Vec<Vec2>> {
     check(garment, options)?;
     if garment.triangles.is_empty() {
-        return Ok(vec![1.0; garment.positions.len()]);
+        return Ok(vec![Vec2::ONE; garment.positions.len()]);
     }
     progress.step("occlusion", 0, garment.positions.len())?;
     let scene = Scene::new(garment);
     let samples = samples(options.rays);
     let done = AtomicUsize::new(0);
-    let mut open = vec![1.0; garment.positions.len()];
+    let mut open = vec![Vec2::ONE; garment.positions.len()];
     open.par_chunks_mut(CHUNK).enumerate().try_for_each(|(chunk, open)| {
         for (open, vertex) in open.iter_mut().zip(chunk * CHUNK..) {
-            *open = scene.open_sky(scene.origins[vertex], garment.normals[vertex], &samples);
+            let [front, back] = scene.origins[vertex];
+            let normal = garment.normals[vertex];
+            open.x = scene.open_sky(front, normal, &samples);
+            open.y = scene.open_sky(back, -normal, &samples);
         }
         let done = done.fetch_add(open.len(), Ordering::Relaxed) + open.len();
         progress.step("occlusion", done, garment.positions.len())
@@ -116,8 +120,8 @@ struct Scene {
     tree: CwBvh,
     /// In the order of the tree's leaves.
     triangles: Vec<RtTriangle>,
-    /// Where each vertex's rays start.
-    origins: Vec<Vec3>,
+    /// Where each vertex's rays start, on the side of its normal and on the other.
+    origins: Vec<[Vec3; 2]>,
 }
 
 impl Scene {
@@ -160,7 +164,7 @@ fn scaled(positions: &[Vec3]) -> Vec<Vec3> {
     positions.iter().map(|p| ((p.as_dvec3() - middle) * scale).as_vec3()).collect()
 }
 
-fn origins(garment: &Garment, positions: &[Vec3]) -> Vec<Vec3> {
+fn origins(garment: &Garment, positions: &[Vec3]) -> Vec<[Vec3; 2]> {
     let mut middles = vec![(Vec3::ZERO, 0.0f32); positions.len()];
     for corners in &garment.triangles {
         let sum: Vec3 = corners.iter().map(|&corner| positions[corner as usize]).sum();
@@ -171,8 +175,12 @@ fn origins(garment: &Garment, positions: &[Vec3]) -> Vec<Vec3> {
     }
     let origin = |((&position, &normal), (sum, count)): ((&Vec3, &Vec3), (Vec3, f32))| {
         let to_middle = if count > 0.0 { sum / count - position } else { Vec3::ZERO };
-        // As far along the normal as towards the middle: above the vertex's own triangles, whatever their slope.
-        position + to_middle * STEP + normal * (to_middle.length() * STEP).max(LEAST_STEP)
+        [normal, -normal].map(|normal| {
+            // On a bulge the middle lies below the surface: never towards that.
+            let to_middle = to_middle - normal * to_middle.dot(normal).min(0.0);
+            // As far along the normal as towards the middle: above the vertex's own triangles, whatever their slope.
+            position + to_middle * STEP + normal * (to_middle.length() * STEP).max(LEAST_STEP)
+        })
     };
     positions.iter().zip(&garment.normals).zip(middles).map(origin).collect()
 }

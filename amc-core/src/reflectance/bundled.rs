@@ -13,8 +13,10 @@ pub struct Bundled {
 }
 
 /// All of them; the first is the default.
-pub const BUNDLED: [Bundled; 1] =
-    [Bundled { name: "satin", json: include_str!("../../../assets/fabrics/satin.json") }];
+pub const BUNDLED: [Bundled; 2] = [
+    Bundled { name: "satin", json: include_str!("../../../assets/fabrics/satin.json") },
+    Bundled { name: "changeant", json: include_str!("../../../assets/fabrics/changeant.json") },
+];
 
 /// The bundled fabric of this name.
 ///

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use super::{Cloth, Draw, Drawing, Vertex};
 use crate::amc::Amc;
@@ -11,7 +11,7 @@ use crate::{Error, Result};
 
 impl Drawing {
     /// A garment with a direction for every vertex (unit, object space, perpendicular to the normal), an occlusion for
-    /// every vertex (share of the sky that is open; none: all of it), and a cloth for every panel, asked for by the
+    /// every vertex (share of the sky that is open on its front and on its back; none: all of it), and a cloth for every panel, asked for by the
     /// panel's index.
     ///
     /// # Errors
@@ -19,7 +19,7 @@ impl Drawing {
     pub fn new(
         garment: &Garment,
         tangents: &[Vec3],
-        occlusion: Option<&[f32]>,
+        occlusion: Option<&[Vec2]>,
         fabrics: Vec<Arc<Amc>>,
         cloth_of_panel: impl Fn(usize) -> Cloth,
     ) -> Result<Self> {
@@ -35,7 +35,7 @@ impl Drawing {
             normal: garment.normals[k],
             tangent: tangents[k],
             uv: garment.uvs[k],
-            occlusion: occlusion.map_or(1.0, |values| values[k]),
+            occlusion: occlusion.map_or(Vec2::ONE, |values| values[k]),
         };
         let draw = |(index, panel): (usize, &crate::mesh::Panel)| Draw {
             triangles: panel.triangles.clone(),
@@ -101,6 +101,7 @@ mod tests {
             takes_fabric: true,
             area: 0.5,
             flags: PanelFlags::default(),
+            pattern: Default::default(),
         };
         Garment {
             positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
@@ -115,16 +116,19 @@ mod tests {
     #[test]
     fn what_does_not_fit_together_is_refused_with_its_place() {
         let tangents = [Vec3::X; 3];
-        let made = |garment: &Garment, tangents: &[Vec3], occlusion: Option<&[f32]>, cloth: Cloth| {
+        let made = |garment: &Garment, tangents: &[Vec3], occlusion: Option<&[Vec2]>, cloth: Cloth| {
             Drawing::new(garment, tangents, occlusion, Vec::new(), |_| cloth.clone())
         };
-        let drawing = made(&garment(), &tangents, Some(&[0.1, 0.2, 0.3]), Cloth::Plain).unwrap();
-        assert_eq!(drawing.vertices[2].occlusion, 0.3);
+        let drawing =
+            made(&garment(), &tangents, Some(&[0.1, 0.2, 0.3].map(Vec2::splat)), Cloth::Plain).unwrap();
+        assert_eq!(drawing.vertices[2].occlusion, Vec2::splat(0.3));
         assert_eq!(drawing.draws, [Draw { triangles: 0..1, cloth: Cloth::Plain }]);
 
         let message = |result: Result<Drawing>| result.unwrap_err().to_string();
         assert!(message(made(&garment(), &tangents[..2], None, Cloth::Plain)).contains("2 tangents"));
-        assert!(message(made(&garment(), &tangents, Some(&[1.0]), Cloth::Plain)).contains("1 occlusion"));
+        assert!(
+            message(made(&garment(), &tangents, Some(&[Vec2::ONE]), Cloth::Plain)).contains("1 occlusion")
+        );
         assert!(message(made(&garment(), &tangents, None, Cloth::Fabric(0))).contains("panel 0"));
         let mut stray = garment();
         stray.triangles[0][1] = 3;

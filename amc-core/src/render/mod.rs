@@ -35,8 +35,9 @@ pub struct Vertex {
     pub tangent: Vec3,
     /// v up.
     pub uv: Vec2,
-    /// Share of the sky that is open, 0 to 1: multiplies the colour (paper, section 6.1).
-    pub occlusion: f32,
+    /// Share of the sky that is open on the side of `normal`, and on the other, 0 to 1: that of the side which is seen
+    /// multiplies the colour (paper, section 6.1; there of one side).
+    pub occlusion: Vec2,
 }
 
 /// What a range of triangles is drawn in.

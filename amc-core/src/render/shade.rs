@@ -101,6 +101,11 @@ pub fn facing_normal(n: Vec3, front: bool) -> Vec3 {
     if front { n } else { -n }
 }
 
+/// Of the light that occlusion leaves on the front and on the back, that of the side which is seen.
+pub fn seen_light(on_front: f32, on_back: f32, front: bool) -> f32 {
+    if front { on_front } else { on_back }
+}
+
 /// `(n_x, n_y)` at which tables and MatCap pictures are looked up: the facing normal `n` at the view-space position `p`
 /// turned for perspective, then kept on the disc. A front-facing fragment whose interpolated normal looks away from
 /// the eye lands on the rim.

@@ -26,7 +26,7 @@ pub(super) fn mesh(
 ) -> Mesh {
     let mut mesh = Mesh {
         uvs: Some(Vec::new()),
-        parts: vec![Part { name: name.to_owned(), takes_fabric: true }],
+        parts: vec![Part { name: name.to_owned(), takes_fabric: true, ..Part::default() }],
         ..Mesh::default()
     };
     for row in 0..=rows {

@@ -1,4 +1,4 @@
-//! Without a command: the first look. The bundled satin, on the waving sheet, as a picture.
+//! Without a command: the first look. The bundled satin as a picture.
 
 use std::path::Path;
 
@@ -11,6 +11,9 @@ use super::progress::with_progress;
 use super::render::PictureFormat;
 use crate::scene::{Fabrics, drawing, load_garment, panel_looks};
 
+/// What wears it.
+const SCENE: &str = "shape:sheet";
+
 /// Where the picture goes: the current folder.
 const PICTURE: &str = "amc-studio.png";
 
@@ -18,7 +21,7 @@ const PICTURE: &str = "amc-studio.png";
 const SIDE: u32 = 1024;
 
 pub(super) fn run(output: &Output) -> Outcome {
-    let garment = load_garment(Path::new("shape:sheet"), Unit::Metre)?;
+    let garment = load_garment(Path::new(SCENE), Unit::Metre)?;
     let orientation = Orientation { yaw: -0.4, pitch: 0.35, roll: 0.0 };
     let view = View::fitted(&garment.positions, orientation, SIDE, SIDE)?;
     let (picture, renderer) = with_progress(|progress| {
@@ -34,8 +37,8 @@ pub(super) fn run(output: &Output) -> Outcome {
     let result = serde_json::json!({ "picture": file, "renderer": renderer });
     output.result(&result, || {
         format!(
-            "The bundled satin on a waving sheet: {}\n\
-             Try also: amc-studio render shape:torus -o torus.png --panel all,angle=90",
+            "The bundled satin on {SCENE}: {}\n\
+             Try also: amc-studio render {SCENE} -o picture.png --amc fabric:changeant --yaw 40",
             file.display()
         )
     })?;

@@ -16,7 +16,7 @@ use crate::scene::load_garment;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
-    /// A mesh, shape:NAME, an AMC, or a session's folder.
+    /// A mesh, garment:NAME, shape:NAME, an AMC, or a session's folder.
     file: PathBuf,
     /// What a mesh's numbers mean: m, dm, cm or mm.
     #[arg(long, default_value = "m", value_parser = unit)]
@@ -46,14 +46,15 @@ fn mesh(garment: &Garment) -> Value {
         "vertices": garment.file_vertices,
         "triangles": garment.triangles.len(),
         "has_uvs": garment.has_uvs,
-        "panels": garment.panels.iter().zip(garment.distortion()).map(panel).collect::<Vec<_>>(),
+        "panels": garment.panels.iter().zip(garment.distortion())
+            .map(|(panel, distortion)| describe(garment, panel, distortion))
+            .collect::<Vec<_>>(),
         "notices": garment.notices,
     })
 }
 
-fn panel((panel, distortion): (&Panel, Distortion)) -> Value {
-    let Distortion { stretch, shear } = distortion;
-    json!({
+fn describe(garment: &Garment, panel: &Panel, Distortion { stretch, shear }: Distortion) -> Value {
+    let mut described = json!({
         "id": panel.id,
         "name": panel.name,
         "triangles": panel.triangles.len(),
@@ -63,7 +64,22 @@ fn panel((panel, distortion): (&Panel, Distortion)) -> Value {
         "degenerate": panel.flags.degenerate,
         "stretch": { "p50": stretch.p50, "p95": stretch.p95 },
         "shear": { "p5": shear.p5.to_degrees(), "p95": shear.p95.to_degrees() },
-    })
+    });
+    // What a pattern says is there only where a pattern said it.
+    let pattern = &panel.pattern;
+    let id = |panel: usize| &garment.panels[panel].id;
+    if let Some(grain) = pattern.grain {
+        described["grain_deg"] = json!(grain.to_degrees());
+    }
+    if let Some(mirror) = pattern.mirror {
+        described["mirror"] = json!(id(mirror));
+    }
+    if !pattern.seams.is_empty() {
+        let seams =
+            pattern.seams.iter().map(|seam| json!({ "name": seam.name, "partner": id(seam.partner) }));
+        described["seams"] = seams.collect();
+    }
+    described
 }
 
 fn amc(file: &Path) -> Result<Value> {

@@ -17,16 +17,16 @@ use crate::scene::{Fabrics, PanelOption, drawing, load_garment, panel_looks};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
-    /// A mesh (.obj, .glb, .gltf) or shape:NAME.
+    /// A mesh (.obj, .glb, .gltf), garment:NAME or shape:NAME.
     scene: PathBuf,
     /// The picture: .png (sRGB, straight alpha) or .exr (linear, premultiplied).
     #[arg(short, long)]
     output: PathBuf,
-    /// The fabric of every panel [default: the bundled satin].
+    /// The fabric of every panel: a file, or fabric:NAME for a bundled one [default: fabric:satin].
     #[arg(long)]
     amc: Option<PathBuf>,
-    /// ID|all[,amc=FILE][,angle=DEGREES][,source=NAME]; repeatable, later ones win. Sources: gradient, yarn,
-    /// around-x|y|z, along-x|y|z, radial.
+    /// ID|all[,amc=FILE|fabric:NAME][,angle=DEGREES][,source=NAME]; repeatable, later ones win. The angle counts from +u
+    /// of the flat pattern [default: the panel's grain, else 0]. Sources: gradient, yarn, around-x|y|z, along-x|y|z, radial.
     #[arg(long)]
     panel: Vec<PanelOption>,
     /// amc, isotropic, matcap=PNG, normals, tangents, uv.

@@ -13,12 +13,12 @@ use crate::scene::{PanelOption, directions, load_garment, panel_looks};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
-    /// A mesh (.obj, .glb, .gltf) or shape:NAME.
+    /// A mesh (.obj, .glb, .gltf), garment:NAME or shape:NAME.
     mesh: PathBuf,
     /// Where to: .glb, .obj or .json.
     #[arg(short, long)]
     output: PathBuf,
-    /// ID|all[,angle=DEGREES][,source=NAME]; repeatable, later ones win.
+    /// ID|all[,angle=DEGREES][,source=NAME]; repeatable, later ones win. Default: along the panel's grain, else 0.
     #[arg(long)]
     panel: Vec<PanelOption>,
     /// What the mesh's numbers mean: m, dm, cm or mm.

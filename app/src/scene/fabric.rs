@@ -1,44 +1,52 @@
 //! The fabrics of a scene: each file read once, the bundled ones baked on first use and kept.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use amc_core::amc::Amc;
 use amc_core::bake::{self, BakeOptions};
-use amc_core::reflectance;
+use amc_core::reflectance::{self, BUNDLED, Bundled};
 use amc_core::{Progress, Result};
 
 use crate::storage::cache_folder;
+
+/// How a scene names a bundled fabric, in place of a file.
+const FABRIC_PREFIX: &str = "fabric:";
 
 /// The fabrics in use, numbered in the order they were asked for.
 #[derive(Debug, Default)]
 pub(crate) struct Fabrics {
     tables: Vec<Arc<Amc>>,
-    files: Vec<Option<PathBuf>>,
+    /// What each was asked for as.
+    names: Vec<String>,
 }
 
 impl Fabrics {
-    /// The number of the fabric in `file`, which is read the first time it is asked for.
-    pub(crate) fn read(&mut self, file: &Path) -> Result<usize> {
-        let known = self.files.iter().position(|known| known.as_deref() == Some(file));
-        match known {
-            Some(number) => Ok(number),
-            None => Ok(self.push(Some(file.to_owned()), Amc::read(file)?)),
+    /// The number of the fabric that `named` is: a file or `fabric:NAME`. It is read or baked the first time it is asked
+    /// for.
+    pub(crate) fn find(&mut self, named: &Path, progress: &Progress<'_>) -> Result<usize> {
+        match named.to_str().and_then(|text| text.strip_prefix(FABRIC_PREFIX)) {
+            Some(name) => self.bundled(reflectance::bundled(name)?, progress),
+            None => self.number(&named.to_string_lossy(), || Amc::read(named)),
         }
     }
 
-    /// The number of the bundled satin.
-    pub(crate) fn bundled(&mut self, progress: &Progress<'_>) -> Result<usize> {
-        match self.files.iter().position(Option::is_none) {
-            Some(number) => Ok(number),
-            None => Ok(self.push(None, bundled_fabric(progress)?)),
-        }
+    /// The number of the fabric for whoever asked for none.
+    pub(crate) fn default_fabric(&mut self, progress: &Progress<'_>) -> Result<usize> {
+        self.bundled(BUNDLED[0], progress)
     }
 
-    fn push(&mut self, file: Option<PathBuf>, table: Amc) -> usize {
-        self.files.push(file);
-        self.tables.push(Arc::new(table));
-        self.tables.len() - 1
+    fn bundled(&mut self, fabric: Bundled, progress: &Progress<'_>) -> Result<usize> {
+        self.number(&format!("{FABRIC_PREFIX}{}", fabric.name), || bundled_fabric(fabric, progress))
+    }
+
+    fn number(&mut self, name: &str, make: impl FnOnce() -> Result<Amc>) -> Result<usize> {
+        if let Some(number) = self.names.iter().position(|known| known == name) {
+            return Ok(number);
+        }
+        self.tables.push(Arc::new(make()?));
+        self.names.push(name.to_owned());
+        Ok(self.tables.len() - 1)
     }
 
     /// The tables, in their order.
@@ -47,9 +55,8 @@ impl Fabrics {
     }
 }
 
-/// The bundled satin: from the cache, else baked and cached.
-fn bundled_fabric(progress: &Progress<'_>) -> Result<Amc> {
-    let bundled = reflectance::BUNDLED[0];
+/// A bundled fabric: from the cache, else baked and cached.
+fn bundled_fabric(bundled: Bundled, progress: &Progress<'_>) -> Result<Amc> {
     let options = BakeOptions::default();
     let bake = || bake::bake(&bundled.description()?, &options, progress);
     let Some(folder) = cache_folder() else { return bake() };

@@ -22,8 +22,9 @@ pub(crate) fn directions(looks: &[PanelLook]) -> Vec<Direction> {
     looks.iter().map(|look| look.direction).collect()
 }
 
-/// Every panel's look: `amc` (default: the bundled satin) on all that take a fabric, then `options` in their order,
-/// later ones winning. `fabrics` none: only directions are wanted.
+/// Every panel's look: `amc` (a file or `fabric:NAME`; default: the bundled satin) on all that take a fabric, along its
+/// grain where its file says it, then `options` in their order, later ones winning. `fabrics` none: only directions are
+/// wanted.
 pub(crate) fn panel_looks(
     garment: &Garment,
     amc: Option<&Path>,
@@ -32,6 +33,7 @@ pub(crate) fn panel_looks(
     progress: &Progress<'_>,
 ) -> Result<Vec<PanelLook>> {
     let mut looks = vec![PanelLook::default(); garment.panels.len()];
+    let mut angles = vec![None; garment.panels.len()];
     let whole: Vec<bool> = garment.panels.iter().map(|panel| panel.takes_fabric).collect();
     let every_panel_has_its_own = |panel: usize| {
         options.iter().any(|option| option.amc.is_some() && names(option, &garment.panels[panel].id))
@@ -40,8 +42,8 @@ pub(crate) fn panel_looks(
         let needs_default = (0..looks.len()).any(|panel| whole[panel] && !every_panel_has_its_own(panel));
         if needs_default {
             let number = match amc {
-                Some(file) => fabrics.read(file)?,
-                None => fabrics.bundled(progress)?,
+                Some(named) => fabrics.find(named, progress)?,
+                None => fabrics.default_fabric(progress)?,
             };
             for (look, takes_fabric) in looks.iter_mut().zip(&whole) {
                 look.fabric = takes_fabric.then_some(number);
@@ -60,22 +62,28 @@ pub(crate) fn panel_looks(
             )));
         }
         let fabric = match (&option.amc, fabrics.as_deref_mut()) {
-            (Some(file), Some(fabrics)) => Some(fabrics.read(file)?),
+            (Some(named), Some(fabrics)) => Some(fabrics.find(named, progress)?),
             _ => None,
         };
-        for (look, panel) in looks.iter_mut().zip(&garment.panels) {
+        for ((look, angle), panel) in looks.iter_mut().zip(&mut angles).zip(&garment.panels) {
             // 'all' means all cloth; a part that takes no fabric gets one only by its own id.
             if !names(option, &panel.id) || (option.id.is_none() && !panel.takes_fabric) {
                 continue;
             }
             look.fabric = fabric.or(look.fabric);
-            if let Some(degrees) = option.angle_degrees {
-                look.direction.angle = degrees.to_radians();
-            }
+            *angle = option.angle_degrees.or(*angle);
             if let Some(source) = option.source {
                 look.direction.source = source_of(source, centre);
             }
         }
+    }
+    for ((look, angle), panel) in looks.iter_mut().zip(angles).zip(&garment.panels) {
+        look.direction.angle = match (angle, look.direction.source) {
+            (Some(degrees), _) => degrees.to_radians(),
+            (None, Source::Gradient | Source::Yarn) => Direction::along_grain(panel).angle,
+            // A grain is an angle in the flat pattern, of which a field knows nothing.
+            (None, Source::Field(_)) => 0.0,
+        };
     }
     Ok(looks)
 }

@@ -34,6 +34,7 @@ pub(crate) const SOURCES: [(&str, SourceName); 9] = [
 pub(crate) struct PanelOption {
     /// None: all panels.
     pub(crate) id: Option<String>,
+    /// A file, or `fabric:NAME`.
     pub(crate) amc: Option<PathBuf>,
     pub(crate) angle_degrees: Option<f32>,
     pub(crate) source: Option<SourceName>,

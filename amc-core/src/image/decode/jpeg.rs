@@ -11,7 +11,8 @@ use crate::{Error, Result};
 /// A blank baseline picture takes 6 bits for 16 x 16 pixels of three bytes: 1024 to 1. Twice that.
 const MOST_RATIO: u64 = 2048;
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Raster> {
+/// `buffer`'s memory is used again for the samples.
+pub(super) fn decode(bytes: &[u8], mut buffer: Vec<u8>) -> Result<Raster> {
     // Strict: broken data is an error, not a half-grey picture.
     let options =
         DecoderOptions::new_fast().set_max_width(65_535).set_max_height(65_535).set_strict_mode(true);
@@ -26,14 +27,10 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Raster> {
     let (width, height) = decoder.dimensions().ok_or_else(unknown)?;
     let grey = decoder.input_colorspace().ok_or_else(unknown)? == ColorSpace::Luma;
     let (space, channels) = if grey { (ColorSpace::Luma, 1) } else { (ColorSpace::RGB, 3) };
-    check_size(
-        width as u64,
-        height as u64,
-        width as u64 * height as u64 * channels,
-        bytes.len(),
-        MOST_RATIO,
-    )?;
+    let size = width as u64 * height as u64 * channels;
+    check_size(width as u64, height as u64, size, bytes.len(), MOST_RATIO)?;
     decoder.set_options(options.jpeg_set_out_colorspace(space));
-    let samples = decoder.decode().map_err(broken)?;
-    Raster::new(width as u32, height as u32, channels as u32, Samples::U8(samples))
+    buffer.resize(size as usize, 0);
+    decoder.decode_into(&mut buffer).map_err(broken)?;
+    Raster::new(width as u32, height as u32, channels as u32, Samples::U8(buffer))
 }

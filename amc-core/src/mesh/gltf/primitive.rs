@@ -8,30 +8,18 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use glam::{Mat3, Mat4, Vec2, Vec3};
 use gltf::mesh::Mode;
 use rayon::prelude::*;
-use serde::Deserialize;
 
 use super::accessor::{indices, vectors};
+use super::extras_reader::ExtrasReader;
 use super::scene::Instance;
 use crate::mesh::Part;
 use crate::mesh::draft::{COORDINATE_LIMIT, Draft, DraftPart, check_position, clean_name};
+use crate::mesh::extras::Extras;
 use crate::mesh::fabric_words::names_no_fabric;
 use crate::{Error, Result};
 
 /// Triangles that one task numbers.
 const CHUNK: usize = 8 * 1024;
-
-/// What `extras` may say to us.
-#[derive(Deserialize, Default)]
-struct Extras {
-    #[serde(default)]
-    amc: AmcExtras,
-}
-
-#[derive(Deserialize, Default)]
-struct AmcExtras {
-    name: Option<String>,
-    fabric: Option<bool>,
-}
 
 /// Makes room for all instances, as far as `budget` allows what they say of themselves.
 pub(super) fn reserve(draft: &mut Draft, instances: &[Instance<'_>], budget: usize) {
@@ -56,6 +44,7 @@ pub(super) fn append(
     primitive: &gltf::Primitive<'_>,
     instance: &Instance<'_>,
     buffers: &[Cow<'_, [u8]>],
+    extras: &mut ExtrasReader,
 ) -> Result<bool> {
     if !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
         return Ok(false);
@@ -85,7 +74,7 @@ pub(super) fn append(
     draft.uvs.resize(draft.positions.len(), Vec2::ZERO);
     let corners = primitive.indices().map(|a| indices(&a, buffers)).transpose().map_err(named("indices"))?;
     let part = DraftPart {
-        part: describe(primitive, instance),
+        part: describe(primitive, instance, extras),
         has_normals: normals.is_some(),
         has_uvs: uvs.is_some(),
         ..DraftPart::default()
@@ -207,18 +196,15 @@ fn append_triangles(
     }
 }
 
-/// Name and kind: what `extras` say, else the mesh's or node's name (with the material's where a mesh has several
-/// primitives).
-fn describe(primitive: &gltf::Primitive<'_>, instance: &Instance<'_>) -> Part {
+/// Name, kind and pattern: what `extras` say, else the mesh's or node's name (with the material's where a mesh has
+/// several primitives).
+fn describe(primitive: &gltf::Primitive<'_>, instance: &Instance<'_>, extras: &mut ExtrasReader) -> Part {
     let material = primitive.material();
     let node_extras = instance.node.as_ref().map(|node| node.extras());
-    let said: Vec<AmcExtras> =
-        [Some(primitive.extras()), Some(material.extras()), Some(instance.mesh.extras()), node_extras]
-            .into_iter()
-            .flatten()
-            .map(|extras| extras.as_ref().and_then(|raw| serde_json::from_str::<Extras>(raw.get()).ok()))
-            .map(|extras| extras.unwrap_or_default().amc)
-            .collect();
+    let all = [Some(primitive.extras()), Some(material.extras()), Some(instance.mesh.extras()), node_extras];
+    let element = || format!("mesh {}, primitive {}", instance.mesh.index(), primitive.index());
+    let said =
+        all.into_iter().flatten().map(|raw| extras.read(raw, element)).fold(Extras::default(), Extras::or);
     let node_name = instance.node.as_ref().and_then(|node| node.name()).map(clean_name).unwrap_or_default();
     let mesh_name = instance.mesh.name().map(clean_name).unwrap_or_default();
     let material_name = material.name().map(clean_name).unwrap_or_default();
@@ -229,12 +215,12 @@ fn describe(primitive: &gltf::Primitive<'_>, instance: &Instance<'_>) -> Part {
         (true, false) => format!("{own} {material_name}"),
         (true, true) => format!("{own} {}", primitive.index()),
     };
-    let fabric = said.iter().find_map(|said| said.fabric);
     let named_no_fabric =
         [&node_name, &mesh_name, &material_name].into_iter().any(|name| names_no_fabric(name));
     Part {
-        name: said.iter().find_map(|said| said.name.as_deref()).map(clean_name).unwrap_or(name),
-        takes_fabric: fabric.unwrap_or(!named_no_fabric),
+        name: said.name.as_deref().map(clean_name).unwrap_or(name),
+        takes_fabric: said.fabric.unwrap_or(!named_no_fabric),
+        pattern: said.into_pattern(),
     }
 }
 

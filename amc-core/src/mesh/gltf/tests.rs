@@ -297,3 +297,106 @@ fn no_mutation_panics() {
         }
     });
 }
+
+/// The square twice: a left and a right sleeve, sewn together.
+fn sleeves() -> (Value, Vec<u8>) {
+    let (mut json, bin) = square();
+    json["nodes"] = json!([
+        {"mesh": 0, "name": "Left", "extras": {"other": [1], "amc": {
+            "version": 1, "uv_unit_m": 1.0, "grain_deg": 90, "mirror": "Right", "unheard of": {},
+            "seams": [{"name": "middle", "edge": [[1, 0], [1, 1]], "partner": "Right", "partner_edge": [[0, 0], [0, 1]]}]
+        }}},
+        {"mesh": 0, "name": "Right", "translation": [2, 0, 0], "extras": {"amc": {"grain_deg": 405}}}
+    ]);
+    json["scenes"][0]["nodes"] = json!([0, 1]);
+    (json, bin)
+}
+
+#[test]
+fn extras_say_how_a_piece_is_cut_and_sewn() {
+    let (json, bin) = sleeves();
+    let garment = crate::mesh::Garment::new(read(&json, &bin).unwrap()).unwrap();
+    assert!(garment.notices.is_empty(), "{:?}", garment.notices);
+    let [left, right] = [0, 1].map(|k| &garment.panels[k].pattern);
+    assert_eq!((left.grain, right.grain), (Some(90f32.to_radians()), Some(45f32.to_radians())));
+    // The right one does not say so, but a mirror image is mutual.
+    assert_eq!((left.mirror, right.mirror, left.uv_unit), (Some(1), Some(0), Some(1.0)));
+    assert_eq!((left.seams.len(), right.seams.len()), (1, 0));
+    assert_eq!((left.seams[0].partner, left.seams[0].edge), (1, [Vec2::X, Vec2::ONE]));
+}
+
+#[test]
+fn bad_extras_are_a_notice_and_no_more() {
+    let notice = |node: usize, key: &str, value: Value, what: &str| {
+        let (mut json, bin) = sleeves();
+        json["nodes"][node]["extras"]["amc"][key] = value;
+        let garment = crate::mesh::Garment::new(read(&json, &bin).unwrap()).unwrap();
+        assert!(garment.notices.len() == 1 && garment.notices[0].contains(what), "{:?}", garment.notices);
+        garment
+    };
+    let garment = notice(0, "grain_deg", json!("north"), "mesh 0, primitive 0: invalid type: string");
+    assert_eq!((garment.panels[0].pattern.grain, garment.panels[0].pattern.mirror), (None, None));
+    notice(0, "version", json!(2), "version 2; this program reads 1");
+    notice(0, "uv_unit_m", json!(-1), "Left: the unit -1");
+    notice(0, "uv_unit_m", json!(1e300), "Left: the unit inf");
+    notice(0, "mirror", json!("Middle"), "Left: the mirror partner 'Middle' is not there");
+    notice(0, "mirror", json!("Left"), "Left: the mirror partner 'Left' is not there");
+    notice(0, "seams", json!([{"edge": [[0, 0]]}]), "invalid length");
+    notice(0, "seams", json!(vec![vec![0; 100]; 100]), "mesh 0, primitive 0");
+    let seam = |partner: &str, u: f64| json!({"edge": [[u, 0], [1, 1]], "partner": partner, "partner_edge": [[0, 0], [0, 1]]});
+    notice(0, "seams", json!([seam("Back", 0.0)]), "Left: the seam '' is sewn to 'Back', which is not there");
+    notice(0, "seams", json!([seam("Right", 1e300)]), "has an end that is no place");
+    let garment = notice(0, "seams", json!(vec![seam("Right", 1.0); 5000]), "more than 4096 seams");
+    assert_eq!(garment.panels[0].pattern.seams.len(), 4096);
+
+    let (mut json, bin) = sleeves();
+    json["nodes"] = json!([json["nodes"][0], json["nodes"][1], {"mesh": 0, "name": "Third", "translation": [4, 0, 0],
+        "extras": {"amc": {"mirror": "Left"}}}]);
+    json["scenes"][0]["nodes"] = json!([0, 1, 2]);
+    let garment = crate::mesh::Garment::new(read(&json, &bin).unwrap()).unwrap();
+    assert!(
+        garment.notices[0].contains("Third: its mirror partner 'Left' names another"),
+        "{:?}",
+        garment.notices
+    );
+}
+
+#[test]
+fn extras_are_read_as_often_as_the_file_justifies() {
+    let (mut json, bin) = square();
+    let seam = json!({"edge": [[0, 0], [1, 1]], "partner": "a", "partner_edge": [[0, 0], [0, 1]]});
+    json["meshes"][0]["extras"] = json!({"amc": {"name": "a", "seams": vec![seam; 1000]}});
+    json["nodes"] = json!(vec![json!({"mesh": 0}); 1000]);
+    json["scenes"][0]["nodes"] = json!((0..1000).collect::<Vec<_>>());
+    let mesh = read(&json, &bin).unwrap();
+    let seams: usize = mesh.parts.iter().map(|part| part.pattern.seams.len()).sum();
+    assert!((1000..100_000).contains(&seams), "{seams} seams");
+    assert!(mesh.notices[0].contains("too many copies"), "{:?}", mesh.notices);
+}
+
+#[test]
+fn no_mutation_of_extras_panics() {
+    let (json, bin) = sleeves();
+    let whole = glb(&json, &bin);
+    let start = whole.windows(5).position(|bytes| bytes == b"\"amc\"").unwrap();
+    let end = whole.windows(7).position(|bytes| bytes == b"\"scenes").unwrap();
+    mutations::each(&whole[start..end], 4_000, |bytes| {
+        // Keep the container's lengths true, so that the mutation reaches the extras.
+        let text = [&whole[20..start], bytes, &whole[end..whole.len() - 8 - bin.len()]].concat();
+        let mut text = String::from_utf8_lossy(&text).trim_end().to_owned().into_bytes();
+        text.resize(text.len().next_multiple_of(4), b' ');
+        let mut file = whole[..20].to_vec();
+        file[8..12].copy_from_slice(&((28 + text.len() + bin.len()) as u32).to_le_bytes());
+        file[12..16].copy_from_slice(&(text.len() as u32).to_le_bytes());
+        file.extend(text);
+        file.extend_from_slice(&whole[whole.len() - 8 - bin.len()..]);
+        let Ok(mesh) = parse(&file, &nothing_beside) else { return };
+        let Ok(garment) = crate::mesh::Garment::new(mesh) else { return };
+        let count = garment.panels.len();
+        for panel in &garment.panels {
+            let pattern = &panel.pattern;
+            assert!(pattern.grain.is_none_or(f32::is_finite) && pattern.mirror.is_none_or(|k| k < count));
+            assert!(pattern.seams.iter().all(|seam| seam.partner < count && seam.edge[0].is_finite()));
+        }
+    });
+}

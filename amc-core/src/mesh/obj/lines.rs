@@ -317,7 +317,7 @@ fn parts(names: &[Names]) -> Vec<Part> {
             let long = [short(names), if alone { "" } else { &names.material }].join(" ");
             let takes_fabric =
                 ![&names.object, &names.group, &names.material].into_iter().any(|n| names_no_fabric(n));
-            Part { name: long.trim().to_owned(), takes_fabric }
+            Part { name: long.trim().to_owned(), takes_fabric, ..Part::default() }
         })
         .collect()
 }

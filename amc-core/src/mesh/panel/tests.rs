@@ -9,7 +9,7 @@ fn strip(uvs: [[f32; 2]; 6]) -> Mesh {
         uvs: Some(uvs.map(Vec2::from).to_vec()),
         triangles: vec![[0, 1, 4], [1, 2, 5], [0, 4, 3], [1, 5, 4]],
         triangle_parts: vec![0; 4],
-        parts: vec![Part { name: "strip".into(), takes_fabric: true }],
+        parts: vec![Part { name: "strip".into(), takes_fabric: true, ..Part::default() }],
         file_vertices: 6,
         positions,
         notices: Vec::new(),
@@ -67,8 +67,8 @@ fn triangles_without_uv_area_follow_their_neighbours() {
 fn parts_cut_and_panels_stand_together() {
     let mut mesh = strip(UPRIGHT);
     mesh.parts = vec![
-        Part { name: "left".into(), takes_fabric: true },
-        Part { name: "buttons".into(), takes_fabric: false },
+        Part { name: "left".into(), takes_fabric: true, ..Part::default() },
+        Part { name: "buttons".into(), takes_fabric: false, ..Part::default() },
     ];
     mesh.triangle_parts = vec![1, 0, 1, 0];
     let garment = Garment::new(mesh).unwrap();

@@ -11,7 +11,7 @@ use crate::amc::{Amc, LinearTable};
 use crate::image::Picture;
 use crate::render::shade::{
     direction_colour, facing_normal, fragment_kappa, linear_colour, look_up_normal, picture_coordinates,
-    plain, table_coordinates, uv_colour,
+    plain, seen_light, table_coordinates, uv_colour,
 };
 use crate::render::{Cloth, Cyclic, Drawing, Mode, Shading, View};
 use crate::view_space::perpendicular;
@@ -102,7 +102,7 @@ impl FragmentStage<'_> {
             Paint::Tangents => return linear_colour(direction_colour(perpendicular(at.t, n))),
             Paint::Uv => return linear_colour(uv_colour(at.uv)),
         };
-        if self.shading.occlusion { lit * at.occlusion } else { lit }
+        if self.shading.occlusion { lit * seen_light(at.occlusion.x, at.occlusion.y, front) } else { lit }
     }
 
     /// The AMC looked up by the normal and the tangent's azimuth.

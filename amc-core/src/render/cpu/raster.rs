@@ -240,7 +240,7 @@ mod tests {
             n: Vec3::Z,
             t: Vec3::X,
             uv: Vec2::ZERO,
-            occlusion: 1.0,
+            occlusion: Vec2::ONE,
             kappa: Vec4::ZERO,
         };
         let corners = points

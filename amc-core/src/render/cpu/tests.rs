@@ -49,7 +49,7 @@ fn sheet(origin: Vec3, a: Vec3, b: Vec3, normal: Vec3, tangent: Vec3, fabric: Op
         normal,
         tangent,
         uv: Vec2::new(u, v),
-        occlusion: 0.5,
+        occlusion: Vec2::splat(0.5),
     };
     let vertices = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(vertex).to_vec();
     drawing(vertices, vec![[0, 1, 2], [0, 2, 3]], fabric)
@@ -234,7 +234,7 @@ fn the_nearest_is_seen_whatever_the_order_and_the_first_of_equals() {
             normal: Vec3::Z,
             tangent: Vec3::X,
             uv: Vec2::splat(uv),
-            occlusion: 1.0,
+            occlusion: Vec2::ONE,
         })
     };
     let seen = |first: [Vertex; 4], second: [Vertex; 4]| {
@@ -321,7 +321,7 @@ fn torus(around: u32, across: u32, fabric: Arc<Amc>) -> Drawing {
             normal,
             tangent: Vec3::new(-angle.sin(), angle.cos(), 0.0),
             uv: Vec2::ZERO,
-            occlusion: 1.0,
+            occlusion: Vec2::ONE,
         }
     };
     let squares = (0..around).flat_map(|i| (0..across).map(move |j| (i, j)));

@@ -19,8 +19,8 @@ pub(super) struct Varyings {
     pub(super) t: Vec3,
     /// v up.
     pub(super) uv: Vec2,
-    /// 0 to 1.
-    pub(super) occlusion: f32,
+    /// On the front and on the back, 0 to 1.
+    pub(super) occlusion: Vec2,
     /// The cyclic pair for front faces, then that for back faces.
     pub(super) kappa: Vec4,
 }
@@ -86,7 +86,7 @@ impl Corner {
                 n: a.n.lerp(b.n, share),
                 t: a.t.lerp(b.t, share),
                 uv: a.uv.lerp(b.uv, share),
-                occlusion: a.occlusion + (b.occlusion - a.occlusion) * share,
+                occlusion: a.occlusion.lerp(b.occlusion, share),
                 kappa: a.kappa.lerp(b.kappa, share),
             },
         }

@@ -50,7 +50,7 @@ fn upload(
 }
 
 const ATTRIBUTES: [wgpu::VertexAttribute; 5] = {
-    use wgpu::VertexFormat::{Float32, Float32x2, Float32x3};
+    use wgpu::VertexFormat::{Float32x2, Float32x3};
     const fn at(shader_location: u32, offset: usize, format: wgpu::VertexFormat) -> wgpu::VertexAttribute {
         wgpu::VertexAttribute { format, offset: offset as u64, shader_location }
     }
@@ -59,7 +59,7 @@ const ATTRIBUTES: [wgpu::VertexAttribute; 5] = {
         at(1, offset_of!(Vertex, normal), Float32x3),
         at(2, offset_of!(Vertex, tangent), Float32x3),
         at(3, offset_of!(Vertex, uv), Float32x2),
-        at(4, offset_of!(Vertex, occlusion), Float32),
+        at(4, offset_of!(Vertex, occlusion), Float32x2),
     ]
 };
 

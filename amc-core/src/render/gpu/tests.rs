@@ -74,7 +74,7 @@ fn square(from: f32, to: f32, n: Vec3, t: Vec3) -> Drawing {
         normal: n,
         tangent: t,
         uv: Vec2::new(x, y),
-        occlusion: 0.5,
+        occlusion: Vec2::splat(0.5),
     };
     Drawing {
         vertices: vec![vertex(from, -1.0), vertex(to, -1.0), vertex(to, 1.0), vertex(from, 1.0)],

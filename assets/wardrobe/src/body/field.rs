@@ -40,7 +40,8 @@ impl Field {
     pub(super) fn sampled(space: &Space, function: impl Fn(DVec3) -> f64 + Sync) -> Self {
         let counts = ((space.high - space.low) / SPACING).ceil().as_ivec3() + IVec3::ONE;
         let row = counts.x.unsigned_abs() as usize;
-        let mut samples = vec![0.0; row * counts.y.unsigned_abs() as usize * counts.z.unsigned_abs() as usize];
+        let mut samples =
+            vec![0.0; row * counts.y.unsigned_abs() as usize * counts.z.unsigned_abs() as usize];
         samples.par_chunks_mut(row).enumerate().for_each(|(line, samples)| {
             let (y, z) = (line % counts.y.unsigned_abs() as usize, line / counts.y.unsigned_abs() as usize);
             for (x, sample) in samples.iter_mut().enumerate() {

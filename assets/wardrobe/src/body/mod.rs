@@ -66,7 +66,9 @@ impl Body {
     #[must_use]
     pub fn new(figure: Figure) -> Self {
         match figure {
-            Figure::Standing => Self { field: Field::sampled(&standing::SPACE, standing::distance), limbs: standing::limbs() },
+            Figure::Standing => {
+                Self { field: Field::sampled(&standing::SPACE, standing::distance), limbs: standing::limbs() }
+            }
             Figure::Ball => Self { field: Field::ball(BALL_CENTRE, BALL_RADIUS), limbs: Vec::new() },
         }
     }

@@ -9,7 +9,8 @@ use super::Limb;
 use super::field::Space;
 
 /// The space that holds the figure.
-pub(super) const SPACE: Space = Space { low: DVec3::new(-0.75, -0.05, -0.30), high: DVec3::new(0.75, 1.82, 0.35) };
+pub(super) const SPACE: Space =
+    Space { low: DVec3::new(-0.75, -0.05, -0.30), high: DVec3::new(0.75, 1.82, 0.35) };
 
 /// A horizontal section of the torso: an ellipse.
 struct Section {
@@ -83,8 +84,14 @@ pub(super) fn limbs() -> Vec<Limb> {
 /// Zero on the skin, negative inside; a distance but for a slowly varying factor.
 pub(super) fn distance(point: DVec3) -> f64 {
     let mirrored = DVec3::new(point.x.abs(), point.y, point.z);
-    let arm = arm_bones().iter().map(|bone| bone_distance(bone, mirrored)).fold(f64::INFINITY, |a, b| smooth_least(a, b, 0.015));
-    let leg = leg_bones().iter().map(|bone| bone_distance(bone, mirrored)).fold(f64::INFINITY, |a, b| smooth_least(a, b, 0.02));
+    let arm = arm_bones()
+        .iter()
+        .map(|bone| bone_distance(bone, mirrored))
+        .fold(f64::INFINITY, |a, b| smooth_least(a, b, 0.015));
+    let leg = leg_bones()
+        .iter()
+        .map(|bone| bone_distance(bone, mirrored))
+        .fold(f64::INFINITY, |a, b| smooth_least(a, b, 0.02));
     let trunk = smooth_least(torso_distance(point), head_distance(point), 0.02);
     smooth_least(smooth_least(trunk, arm, BLEND), leg, BLEND)
 }

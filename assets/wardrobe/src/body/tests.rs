@@ -47,7 +47,10 @@ fn the_adult_is_as_wide_and_tall_as_stated() {
     let body = Body::new(Figure::Standing);
     assert!(body.distance(DVec3::new(0.0, 0.70, 0.0)) > 0.0, "legs apart below the crotch");
     assert!(body.distance(DVec3::new(0.0, 0.84, 0.0)) < 0.0, "closed above it");
-    let tip = (0..400).map(|i| f64::from(i) * 0.001).take_while(|x| body.distance(DVec3::new(*x, 1.40, -0.01)) < 0.0).last();
+    let tip = (0..400)
+        .map(|i| f64::from(i) * 0.001)
+        .take_while(|x| body.distance(DVec3::new(*x, 1.40, -0.01)) < 0.0)
+        .last();
     let width = 2.0 * tip.unwrap();
     assert!((width - 0.42).abs() < 0.03, "shoulders {width} m");
 }

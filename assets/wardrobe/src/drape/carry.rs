@@ -46,7 +46,8 @@ fn carry_piece(coarse: &CutPiece, places: &[DVec3], fine: &CutPiece) -> Vec<DVec
 }
 
 fn mean_edge(piece: &CutPiece) -> f64 {
-    let lengths = piece.triangles.iter().map(|[a, b, _]| piece.flat[*a as usize].distance(piece.flat[*b as usize]));
+    let lengths =
+        piece.triangles.iter().map(|[a, b, _]| piece.flat[*a as usize].distance(piece.flat[*b as usize]));
     (lengths.sum::<f64>() / piece.triangles.len().max(1) as f64).max(1e-4)
 }
 

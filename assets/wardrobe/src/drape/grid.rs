@@ -48,8 +48,9 @@ impl CellGrid {
             let overlap = low.cmple(other_high).all() && high.cmpge(other_low).all();
             overlap && cell_of(low.max(other_low), self.cell) == place
         };
-        cells(low, high, self.cell)
-            .flat_map(move |place| self.in_cell(place).filter(move |other| *other > index && first_of_both(place, *other)))
+        cells(low, high, self.cell).flat_map(move |place| {
+            self.in_cell(place).filter(move |other| *other > index && first_of_both(place, *other))
+        })
     }
 
     fn in_cell(&self, place: IVec3) -> impl Iterator<Item = u32> {
@@ -66,10 +67,14 @@ fn cell_of(place: DVec3, cell: f64) -> IVec3 {
 
 fn cells(low: DVec3, high: DVec3, cell: f64) -> impl Iterator<Item = IVec3> {
     let (low, high) = (cell_of(low, cell), cell_of(high, cell));
-    (low.z..=high.z).flat_map(move |z| (low.y..=high.y).flat_map(move |y| (low.x..=high.x).map(move |x| IVec3::new(x, y, z))))
+    (low.z..=high.z).flat_map(move |z| {
+        (low.y..=high.y).flat_map(move |y| (low.x..=high.x).map(move |x| IVec3::new(x, y, z)))
+    })
 }
 
 fn bucket(place: IVec3, mask: usize) -> usize {
-    let hash = (place.x.wrapping_mul(73_856_093)) ^ (place.y.wrapping_mul(19_349_663)) ^ (place.z.wrapping_mul(83_492_791));
+    let hash = (place.x.wrapping_mul(73_856_093))
+        ^ (place.y.wrapping_mul(19_349_663))
+        ^ (place.z.wrapping_mul(83_492_791));
     hash.unsigned_abs() as usize & mask
 }

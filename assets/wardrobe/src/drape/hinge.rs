@@ -35,7 +35,8 @@ impl Hinge {
         let edge = x[1] - x[0];
         let first = edge.cross(x[2] - x[0]);
         let second = (x[3] - x[0]).cross(edge);
-        let (length2, first2, second2) = (edge.length_squared(), first.length_squared(), second.length_squared());
+        let (length2, first2, second2) =
+            (edge.length_squared(), first.length_squared(), second.length_squared());
         if length2 < 1e-14 || first2 < 1e-18 || second2 < 1e-18 {
             return;
         }
@@ -43,7 +44,8 @@ impl Hinge {
         let wrong = turn(first.cross(second).dot(edge) / length, first.dot(second), self.rest);
         let far_first = first * (-length / first2);
         let far_second = second * (-length / second2);
-        let (foot_first, foot_second) = ((x[2] - x[0]).dot(edge) / length2, (x[3] - x[0]).dot(edge) / length2);
+        let (foot_first, foot_second) =
+            ((x[2] - x[0]).dot(edge) / length2, (x[3] - x[0]).dot(edge) / length2);
         let gradients = [
             -(far_first * (1.0 - foot_first) + far_second * (1.0 - foot_second)),
             -(far_first * foot_first + far_second * foot_second),

@@ -109,7 +109,8 @@ impl Layers {
             }
             near
         };
-        let found: Vec<Near> = (0..self.triangles.len()).into_par_iter().with_min_len(256).map(of_triangle).collect();
+        let found: Vec<Near> =
+            (0..self.triangles.len()).into_par_iter().with_min_len(256).map(of_triangle).collect();
         self.near = Near::default();
         for near in found {
             self.near.pairs.extend(near.pairs);
@@ -124,15 +125,22 @@ impl Layers {
         // Where two triangles have gone through each other neither knows its side any more: holding them there would only pull
         // the tangle tighter.
         let before = near.tangles.len();
-        near.tangles.extend(Tangle::between(&one.corners, &other.corners, places).chain(Tangle::between(&other.corners, &one.corners, places)));
+        near.tangles.extend(Tangle::between(&one.corners, &other.corners, places).chain(Tangle::between(
+            &other.corners,
+            &one.corners,
+            places,
+        )));
         if near.tangles.len() > before {
             return;
         }
         for (from, to) in [(one, other), (other, one)] {
-            near.pairs.extend(from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range)));
+            near.pairs.extend(
+                from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range)),
+            );
         }
         for first in one.own_edges() {
-            near.pairs.extend(other.own_edges().filter_map(|second| self.crossing(first, second, places, range)));
+            near.pairs
+                .extend(other.own_edges().filter_map(|second| self.crossing(first, second, places, range)));
         }
     }
 
@@ -160,12 +168,17 @@ impl Layers {
     fn crossing(&self, first: [u32; 2], second: [u32; 2], places: &[DVec3], range: f64) -> Option<Pair> {
         let [a, b] = first.map(|end| places[end as usize]);
         let [c, d] = second.map(|end| places[end as usize]);
-        if (a.min(b) - DVec3::splat(range)).cmpgt(c.max(d)).any() || (a.max(b) + DVec3::splat(range)).cmplt(c.min(d)).any() {
+        if (a.min(b) - DVec3::splat(range)).cmpgt(c.max(d)).any()
+            || (a.max(b) + DVec3::splat(range)).cmplt(c.min(d)).any()
+        {
             return None;
         }
         let (s, t) = nearest_on_edges(a, b, c, d)?;
         let between = a.lerp(b, s) - c.lerp(d, t);
-        if between.length_squared() > range * range || self.adjoin(first[0], &second) || self.adjoin(first[1], &second) {
+        if between.length_squared() > range * range
+            || self.adjoin(first[0], &second)
+            || self.adjoin(first[1], &second)
+        {
             return None;
         }
         let direction = between.try_normalize()?;
@@ -215,7 +228,9 @@ impl Touch {
             return;
         }
         self.shift(points, &w, self.normal * (self.depth / weight));
-        let slid: DVec3 = (0..4).map(|i| (points.get(self.particles[i]) - before[self.particles[i] as usize]) * self.weights[i]).sum();
+        let slid: DVec3 = (0..4)
+            .map(|i| (points.get(self.particles[i]) - before[self.particles[i] as usize]) * self.weights[i])
+            .sum();
         let slid = slid.reject_from_normalized(self.normal);
         let length = slid.length();
         if length > 0.0 {
@@ -225,8 +240,8 @@ impl Touch {
     }
 
     fn shift(&self, points: &Points, w: &[f64; 4], by: DVec3) {
-        for i in 0..4 {
-            points.shift(self.particles[i], by * (w[i] * self.weights[i]));
+        for ((particle, weight), w) in self.particles.iter().zip(self.weights).zip(w) {
+            points.shift(*particle, by * (w * weight));
         }
     }
 }
@@ -267,7 +282,11 @@ fn touch(pair: &Pair, points: &Points) -> Option<Touch> {
             let between = a.lerp(b, s) - c.lerp(d, t);
             let length = between.length();
             let upright = between.dot(direction);
-            let (normal, depth) = if length < 1e-9 || upright < 0.0 { (direction, apart - upright) } else { (between / length, apart - length) };
+            let (normal, depth) = if length < 1e-9 || upright < 0.0 {
+                (direction, apart - upright)
+            } else {
+                (between / length, apart - length)
+            };
             if depth <= 0.0 || depth > 2.0 * apart {
                 return None;
             }

@@ -27,7 +27,10 @@ pub fn levels(pattern: &Pattern, edge_length: f64) -> Result<Vec<CutGarment>> {
 
 fn edge_lengths(edge_length: f64, coarsest: f64) -> Vec<f64> {
     let steps = ((coarsest / edge_length).ln() / FINER.ln()).ceil().max(0.0);
-    (0..=steps as i32).rev().map(|step| edge_length * (coarsest / edge_length).max(1.0).powf(f64::from(step) / steps.max(1.0))).collect()
+    (0..=steps as i32)
+        .rev()
+        .map(|step| edge_length * (coarsest / edge_length).max(1.0).powf(f64::from(step) / steps.max(1.0)))
+        .collect()
 }
 
 /// The edge length at which a pattern has about so many triangles, metres.
@@ -47,7 +50,10 @@ mod tests {
     fn levels_end_with_the_edge_asked_for_in_even_steps() {
         assert_eq!(edge_lengths(0.05, 0.026), [0.05]);
         let lengths = edge_lengths(0.003, 0.026);
-        assert!((lengths[0] - 0.026).abs() < 1e-12 && (lengths[lengths.len() - 1] - 0.003).abs() < 1e-12, "{lengths:?}");
+        assert!(
+            (lengths[0] - 0.026).abs() < 1e-12 && (lengths[lengths.len() - 1] - 0.003).abs() < 1e-12,
+            "{lengths:?}"
+        );
         for pair in lengths.windows(2) {
             assert!(pair[0] / pair[1] > 1.5 && pair[0] / pair[1] <= FINER + 1e-9, "{lengths:?}");
         }

@@ -25,7 +25,11 @@ impl Membrane {
     /// The triangle with these flat corners, metres, cut with the warp at `grain` radians from +u. `None` for one without area.
     pub(super) fn new(corners: [u32; 3], flat: [DVec2; 3], grain: f64, cloth: &Cloth) -> Option<Self> {
         let twice = (flat[1] - flat[0]).perp_dot(flat[2] - flat[0]);
-        if twice.abs() < 1e-12 || corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0] {
+        if twice.abs() < 1e-12
+            || corners[0] == corners[1]
+            || corners[1] == corners[2]
+            || corners[2] == corners[0]
+        {
             return None;
         }
         let warp_direction = DVec2::from_angle(grain);

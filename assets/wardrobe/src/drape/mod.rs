@@ -11,6 +11,7 @@ mod model;
 mod phases;
 mod place;
 mod points;
+mod sewing;
 mod solver;
 mod tangle;
 #[cfg(test)]
@@ -41,7 +42,12 @@ pub struct Draped {
 /// # Errors
 /// Cancelled; no cut at all; levels of different patterns; a piece wrapped round a limb that the figure does not have; a
 /// seam that does not close; a cloth that gives way to nothing (not finite, or not positive).
-pub fn drape(levels: &[CutGarment], body: &Body, options: &Options, progress: &Progress<'_>) -> Result<(Draped, Rest)> {
+pub fn drape(
+    levels: &[CutGarment],
+    body: &Body,
+    options: &Options,
+    progress: &Progress<'_>,
+) -> Result<(Draped, Rest)> {
     let Some((coarsest, finer)) = levels.split_first() else {
         return Err(Error::invalid("there is no garment to drape"));
     };
@@ -50,7 +56,13 @@ pub fn drape(levels: &[CutGarment], body: &Body, options: &Options, progress: &P
     rayon::scope(|_| drape_levels(coarsest, finer, body, options, progress))
 }
 
-fn drape_levels(coarsest: &CutGarment, finer: &[CutGarment], body: &Body, options: &Options, progress: &Progress<'_>) -> Result<(Draped, Rest)> {
+fn drape_levels(
+    coarsest: &CutGarment,
+    finer: &[CutGarment],
+    body: &Body,
+    options: &Options,
+    progress: &Progress<'_>,
+) -> Result<(Draped, Rest)> {
     let (mut draped, mut rest) = phases::sew_and_drape(coarsest, body, options, progress)?;
     let mut before = coarsest;
     for finer in finer {
@@ -62,10 +74,14 @@ fn drape_levels(coarsest: &CutGarment, finer: &[CutGarment], body: &Body, option
 }
 
 fn check(garment: &CutGarment) -> Result<()> {
-    let cloths = garment.pieces.iter().map(|piece| (piece.name.as_str(), piece.cloth.as_ref().unwrap_or(&garment.cloth)));
+    let cloths = garment
+        .pieces
+        .iter()
+        .map(|piece| (piece.name.as_str(), piece.cloth.as_ref().unwrap_or(&garment.cloth)));
     for (name, cloth) in cloths {
         let positive = [cloth.density, cloth.warp, cloth.weft, cloth.shear, cloth.bending];
-        if !positive.iter().all(|value| value.is_finite() && *value > 0.0) || !(cloth.friction.is_finite() && cloth.friction >= 0.0) {
+        let sound = positive.iter().all(|value| value.is_finite() && *value > 0.0);
+        if !sound || !cloth.friction.is_finite() || cloth.friction < 0.0 {
             let what = "density, warp, weft, shear and bending must be positive, friction not negative";
             return Err(Error::invalid(what).at_element(format!("cloth of piece \"{name}\"")));
         }

@@ -93,7 +93,8 @@ impl Model {
 
     /// Places of vertices from those of particles.
     pub(super) fn scatter(&self, places: &[DVec3]) -> Vec<Vec<DVec3>> {
-        let of_piece = |particles: &Vec<u32>| particles.iter().map(|particle| places[*particle as usize]).collect();
+        let of_piece =
+            |particles: &Vec<u32>| particles.iter().map(|particle| places[*particle as usize]).collect();
         self.particle_of.iter().map(of_piece).collect()
     }
 }
@@ -146,7 +147,14 @@ fn hinges(garment: &CutGarment, particle_of: &[Vec<u32>]) -> Vec<Hinge> {
         let folds = fold_angles(piece);
         for corners in &piece.triangles {
             for i in 0..3 {
-                let side = side(piece, cloth, &folds, index, [corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]], particles);
+                let side = side(
+                    piece,
+                    cloth,
+                    &folds,
+                    index,
+                    [corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]],
+                    particles,
+                );
                 let key = [side.edge[0].min(side.edge[1]), side.edge[0].max(side.edge[1])];
                 open.entry(key).or_default().push(side);
             }
@@ -155,7 +163,10 @@ fn hinges(garment: &CutGarment, particle_of: &[Vec<u32>]) -> Vec<Hinge> {
     let mut hinges = Vec::new();
     for sides in open.into_values() {
         for (i, first) in sides.iter().enumerate() {
-            let within = sides[i + 1..].iter().filter(|second| second.piece == first.piece && second.far != first.far).map(|second| join(first, second));
+            let within = sides[i + 1..]
+                .iter()
+                .filter(|second| second.piece == first.piece && second.far != first.far)
+                .map(|second| join(first, second));
             hinges.extend(within);
         }
         if let [first, second] = sides.as_slice()
@@ -168,7 +179,14 @@ fn hinges(garment: &CutGarment, particle_of: &[Vec<u32>]) -> Vec<Hinge> {
     hinges
 }
 
-fn side(piece: &CutPiece, cloth: &Cloth, folds: &BTreeMap<[u32; 2], f64>, index: usize, [a, b, c]: [u32; 3], particles: &[u32]) -> Side {
+fn side(
+    piece: &CutPiece,
+    cloth: &Cloth,
+    folds: &BTreeMap<[u32; 2], f64>,
+    index: usize,
+    [a, b, c]: [u32; 3],
+    particles: &[u32],
+) -> Side {
     let flat = |vertex: u32| piece.flat[vertex as usize];
     let bending = cloth.bending.max(LEAST_BENDING * cloth.density * flat(a).distance(flat(b)).powi(3));
     let rest = folds.get(&[a.min(b), a.max(b)]).copied();

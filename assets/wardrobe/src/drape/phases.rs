@@ -6,9 +6,9 @@ use glam::DVec3;
 use super::layers::Layers;
 use super::model::Model;
 use super::solver::{Conditions, Energy, Solver, Thread};
-use super::{Draped, place};
+use super::{Draped, place, sewing};
 use crate::body::Body;
-use crate::cut::{At, CutGarment, Join, JoinKind};
+use crate::cut::{At, CutGarment, JoinKind};
 
 /// How a garment is draped.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,8 +72,6 @@ impl Rest {
 /// Bounds of the distance between layers, in mean edges.
 const LEAST_LAYER: f64 = 0.2;
 const MOST_LAYER: f64 = 0.5;
-/// A seam wider than this after sewing has not closed, metres.
-const CLOSED: f64 = 0.004;
 /// Between two looks at energies and speeds, seconds.
 const FRAME: f64 = 1.0 / 60.0;
 /// Drag of the air while sewing, falling, relaxing on a finer level and quieting, 1/seconds.
@@ -87,97 +85,43 @@ const SEWING_SOFTNESS: f64 = 20.0;
 const SETTLING: f64 = 0.3;
 
 /// Places, sews and drapes.
-pub(super) fn sew_and_drape(garment: &CutGarment, body: &Body, options: &Options, progress: &Progress<'_>) -> Result<(Draped, Rest)> {
+pub(super) fn sew_and_drape(
+    garment: &CutGarment,
+    body: &Body,
+    options: &Options,
+    progress: &Progress<'_>,
+) -> Result<(Draped, Rest)> {
     let placed = place::place(garment, body, options.margin)?;
-    let sewn = sew(garment, &placed, body, options, progress)?;
+    let sewn = sewing::sew(garment, &placed, body, options, SEWING_SOFTNESS, progress)?;
     settle_and_drape(garment, &sewn, body, options, SEWING_SOFTNESS, progress)
 }
 
 /// Goes on from where a coarser cut came to rest.
-pub(super) fn relax(garment: &CutGarment, start: &[Vec<DVec3>], body: &Body, options: &Options, progress: &Progress<'_>) -> Result<(Draped, Rest)> {
+pub(super) fn relax(
+    garment: &CutGarment,
+    start: &[Vec<DVec3>],
+    body: &Body,
+    options: &Options,
+    progress: &Progress<'_>,
+) -> Result<(Draped, Rest)> {
     let mut start = start.to_vec();
     start.iter_mut().flatten().for_each(|place| place::push_out(place, body, options.margin));
     settle_and_drape(garment, &start, body, options, 1.0, progress)
 }
 
-fn pairs(garment: &CutGarment, kind: JoinKind) -> impl Iterator<Item = (&str, At, At)> {
+fn pairs(garment: &CutGarment, kind: JoinKind) -> impl Iterator<Item = (At, At)> {
     let joins = garment.joins.iter().filter(move |join| join.kind == kind);
-    joins.flat_map(|join| join.pairs.iter().map(|(one, other)| (join.name.as_str(), *one, *other)))
+    joins.flat_map(|join| join.pairs.iter().copied())
 }
 
-fn sewn_pairs(garment: &CutGarment) -> Vec<(At, At)> {
-    pairs(garment, JoinKind::Sewn).map(|(_, one, other)| (one, other)).collect()
+/// Which vertices become one.
+pub(super) fn sewn_pairs(garment: &CutGarment) -> Vec<(At, At)> {
+    pairs(garment, JoinKind::Sewn).collect()
 }
 
-fn layer(model: &Model, options: &Options) -> f64 {
+/// How far layers keep off each other, metres.
+pub(super) fn layer(model: &Model, options: &Options) -> f64 {
     options.layer.max(LEAST_LAYER * model.edge_length).min(MOST_LAYER * model.edge_length)
-}
-
-/// Closes the seams without weight and friction, late ones after the others. Each seam's threads shorten in the same time: to
-/// nothing, or to one layer where it holds two layers together.
-fn sew(garment: &CutGarment, placed: &[Vec<DVec3>], body: &Body, options: &Options, progress: &Progress<'_>) -> Result<Vec<Vec<DVec3>>> {
-    let pairs: Vec<_> = pairs(garment, JoinKind::Sewn).collect();
-    if pairs.is_empty() {
-        return Ok(placed.to_vec());
-    }
-    let mut model = Model::new(garment, &[]);
-    model.friction = 0.0;
-    let welded = Model::new(garment, &sewn_pairs(garment));
-    let identity = welded.particle_of.iter().flatten().copied().collect();
-    let thickness = layer(&model, options);
-    let layers = Layers::new(&model, identity, thickness);
-    let mut solver = Solver::new(&model, body, &model.gather(placed), options.margin, layers, options.step * model.edge_length);
-    let closings: Vec<Closing> = closings(garment, &model, &solver, thickness);
-    let substeps = (options.sewing / solver.step).ceil() as usize;
-    let conditions = Conditions { gravity: 0.0, drag: SEWING_DRAG, softness: SEWING_SOFTNESS };
-    let rounds = if closings.iter().any(|closing| closing.late) { 2 } else { 1 };
-    for substep in 0..rounds * substeps + substeps / 4 {
-        let time = (substep + 1) as f64 / substeps as f64;
-        solver.threads = closings.iter().map(|closing| closing.thread(time)).collect();
-        solver.advance(conditions);
-        if substep % 64 == 0 {
-            progress.step("sewing", substep, rounds * substeps)?;
-        }
-    }
-    check(&solver)?;
-    for (name, one, other) in pairs {
-        let gap = solver.points.get(model.particle(one)).distance(solver.points.get(model.particle(other)));
-        if !(gap <= CLOSED) {
-            let what = format!("the seam does not close: {:.1} mm stay open; place its pieces nearer to each other", gap * 1e3);
-            return Err(Error::invalid(what).at_element(format!("seam \"{name}\"")));
-        }
-    }
-    Ok(model.scatter(&solver.points.to_vec()))
-}
-
-/// A thread of a seam that is being closed.
-struct Closing {
-    ends: [u32; 2],
-    /// Its length at first and in the end, metres.
-    lengths: [f64; 2],
-    /// Whether it waits for the others.
-    late: bool,
-}
-
-impl Closing {
-    /// What is left of it; `time` in seams' times.
-    fn thread(&self, time: f64) -> Thread {
-        let left = (1.0 + f64::from(u8::from(self.late)) - time).clamp(0.0, 1.0);
-        Thread { ends: self.ends, most: self.lengths[1] + (self.lengths[0] - self.lengths[1]).max(0.0) * left }
-    }
-}
-
-fn closings(garment: &CutGarment, model: &Model, solver: &Solver<'_>, thickness: f64) -> Vec<Closing> {
-    let of_join = |join: &Join| {
-        let (late, least) = (join.late, if join.kind == JoinKind::Sewn { 0.0 } else { thickness });
-        let closing = |(one, other): &(At, At)| {
-            let ends = [model.particle(*one), model.particle(*other)];
-            let length = solver.points.get(ends[0]).distance(solver.points.get(ends[1]));
-            Closing { ends, lengths: [length, least], late }
-        };
-        join.pairs.iter().map(closing).collect::<Vec<_>>()
-    };
-    garment.joins.iter().flat_map(of_join).collect()
 }
 
 /// Welds the seams and lets the garment fall until it is still.
@@ -192,17 +136,33 @@ fn settle_and_drape(
     let model = Model::new(garment, &sewn_pairs(garment));
     let thickness = layer(&model, options);
     let layers = Layers::new(&model, (0..model.mass.len() as u32).collect(), thickness);
-    let mut solver = Solver::new(&model, body, &model.gather(start), options.margin, layers, options.step * model.edge_length);
-    let buttons = pairs(garment, JoinKind::Layered).map(|(_, one, other)| [model.particle(one), model.particle(other)]);
+    let mut solver = Solver::new(
+        &model,
+        body,
+        &model.gather(start),
+        options.margin,
+        layers,
+        options.step * model.edge_length,
+    );
+    let buttons =
+        pairs(garment, JoinKind::Layered).map(|(one, other)| [model.particle(one), model.particle(other)]);
     solver.threads = buttons.map(|ends| Thread { ends, most: thickness }).collect();
     let mut rest = Rest::default();
     let gravity = options.gravity;
     let coarsest = softness > 1.0;
     if coarsest {
-        let ramp = |share: f64| Conditions { gravity: gravity * share, drag: SEWING_DRAG, softness: softness.powf(1.0 - share) };
+        let ramp = |share: f64| Conditions {
+            gravity: gravity * share,
+            drag: SEWING_DRAG,
+            softness: softness.powf(1.0 - share),
+        };
         run(&mut solver, SETTLING, options, &mut rest, ramp, ("settling", progress))?;
     }
-    let [falling, quieting] = if coarsest { [options.falling, options.quieting] } else { options.relaxing.map(|time| time * model.edge_length) };
+    let [falling, quieting] = if coarsest {
+        [options.falling, options.quieting]
+    } else {
+        options.relaxing.map(|time| time * model.edge_length)
+    };
     let almost_still = Options { rest_speed: 4.0 * options.rest_speed, ..options.clone() };
     let drag = if coarsest { FALLING_DRAG } else { RELAXING_DRAG };
     let fall = |_| Conditions { gravity, drag, softness: 1.0 };
@@ -212,7 +172,7 @@ fn settle_and_drape(
     Ok((Draped { positions: model.scatter(&solver.points.to_vec()) }, rest))
 }
 
-fn check(solver: &Solver<'_>) -> Result<()> {
+pub(super) fn check(solver: &Solver<'_>) -> Result<()> {
     let what = "the cloth flew apart or fell off the body: look at its placement, its size and its stiffness";
     if solver.blown_up { Err(Error::invalid(what)) } else { Ok(()) }
 }

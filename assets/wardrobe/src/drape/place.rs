@@ -26,9 +26,11 @@ fn place_piece(piece: &CutPiece, body: &Body) -> Result<Vec<DVec3>> {
     match &piece.placement {
         Placement::Around { limb, point, along, angle_deg, radius, flare } => {
             let Some(limb) = body.limb(limb) else {
-                return Err(Error::invalid(format!("there is no limb \"{limb}\" to wrap the piece round")).at_element(format!("piece \"{}\"", piece.name)));
+                return Err(Error::invalid(format!("there is no limb \"{limb}\" to wrap the piece round"))
+                    .at_element(format!("piece \"{}\"", piece.name)));
             };
-            let wrap = Wrap { limb, along: *along, angle: angle_deg.to_radians(), radius: *radius, flare: *flare };
+            let wrap =
+                Wrap { limb, along: *along, angle: angle_deg.to_radians(), radius: *radius, flare: *flare };
             Ok(piece.flat.iter().map(|flat| wrap.place(*flat - DVec2::from(*point))).collect())
         }
         Placement::Hung(hang) => Ok(piece.flat.iter().map(|flat| hang.place(flat.x, flat.y)).collect()),
@@ -56,7 +58,8 @@ struct Wrap<'a> {
 impl Wrap<'_> {
     /// Where a flat offset from the anchor goes.
     fn place(&self, offset: DVec2) -> DVec3 {
-        let (along, radius, angle) = if self.flare.abs() < LEAST_FLARE { self.on_cylinder(offset) } else { self.on_cone(offset) };
+        let (along, radius, angle) =
+            if self.flare.abs() < LEAST_FLARE { self.on_cylinder(offset) } else { self.on_cone(offset) };
         let round = self.limb.front * angle.cos() + self.limb.side() * angle.sin();
         self.limb.start + self.limb.axis * along + round * radius
     }

@@ -96,7 +96,14 @@ pub(super) struct Solver<'a> {
 
 impl<'a> Solver<'a> {
     /// Cloth at rest at `places`; kept `margin` off the body, metres, and off itself by `layers`; `step` in seconds.
-    pub(super) fn new(model: &'a Model, body: &'a Body, places: &[DVec3], margin: f64, layers: Layers, step: f64) -> Self {
+    pub(super) fn new(
+        model: &'a Model,
+        body: &'a Body,
+        places: &[DVec3],
+        margin: f64,
+        layers: Layers,
+        step: f64,
+    ) -> Self {
         let mut solver = Self {
             model,
             body,
@@ -128,7 +135,9 @@ impl<'a> Solver<'a> {
             self.search();
         }
         let (points, inverse_mass, step) = (&self.points, &self.model.inverse_mass, self.step);
-        self.model.membranes.for_each(|membrane| membrane.solve(points, inverse_mass, conditions.softness, step));
+        self.model
+            .membranes
+            .for_each(|membrane| membrane.solve(points, inverse_mass, conditions.softness, step));
         self.model.hinges.for_each(|hinge| hinge.solve(points, inverse_mass, step));
         for thread in &self.threads {
             thread.solve(points, inverse_mass);
@@ -145,12 +154,15 @@ impl<'a> Solver<'a> {
         let (points, inverse_mass) = (&self.points, &self.model.inverse_mass);
         let chunks = self.velocities.par_chunks_mut(CHUNK).zip(self.before.par_chunks_mut(CHUNK)).enumerate();
         chunks.for_each(|(chunk, (velocities, before))| {
-            for ((velocity, before), particle) in velocities.iter_mut().zip(before).zip((chunk * CHUNK) as u32..) {
+            for ((velocity, before), particle) in
+                velocities.iter_mut().zip(before).zip((chunk * CHUNK) as u32..)
+            {
                 if inverse_mass[particle as usize] == 0.0 {
                     *velocity = DVec3::ZERO;
                     continue;
                 }
-                *velocity = ((*velocity - DVec3::Y * (conditions.gravity * step)) * kept).clamp_length_max(MOST_SPEED);
+                *velocity = ((*velocity - DVec3::Y * (conditions.gravity * step)) * kept)
+                    .clamp_length_max(MOST_SPEED);
                 *before = points.get(particle);
                 points.set(particle, *before + *velocity * step);
             }
@@ -159,7 +171,10 @@ impl<'a> Solver<'a> {
 
     fn wandered(&self) -> bool {
         let far = self.free_path * self.free_path;
-        let moved = |(particle, searched): (usize, &DVec3)| !(self.points.get(particle as u32).distance_squared(*searched) <= far);
+        let moved = |(particle, searched): (usize, &DVec3)| {
+            let moved = self.points.get(particle as u32).distance_squared(*searched);
+            moved.is_nan() || moved > far
+        };
         self.searched.par_iter().enumerate().with_min_len(CHUNK).any(moved)
     }
 
@@ -205,7 +220,10 @@ impl<'a> Solver<'a> {
 
     /// The largest distance of a particle from where it was, metres.
     pub(super) fn farthest_from(&self, places: &[DVec3]) -> f64 {
-        let moved = places.iter().enumerate().map(|(particle, place)| self.points.get(particle as u32).distance_squared(*place));
+        let moved = places
+            .iter()
+            .enumerate()
+            .map(|(particle, place)| self.points.get(particle as u32).distance_squared(*place));
         moved.fold(0.0, f64::max).sqrt()
     }
 
@@ -217,10 +235,12 @@ impl<'a> Solver<'a> {
     /// The energies now.
     pub(super) fn energy(&self, gravity: f64) -> Energy {
         let model = self.model;
-        let kinetic = model.mass.iter().zip(&self.velocities).map(|(mass, v)| 0.5 * mass * v.length_squared()).sum();
+        let kinetic =
+            model.mass.iter().zip(&self.velocities).map(|(mass, v)| 0.5 * mass * v.length_squared()).sum();
         let stretch: f64 = model.membranes.all().iter().map(|membrane| membrane.energy(&self.points)).sum();
         let bending: f64 = model.hinges.all().iter().map(|hinge| hinge.energy(&self.points)).sum();
-        let height = model.mass.iter().enumerate().map(|(i, mass)| mass * gravity * self.points.get(i as u32).y).sum();
+        let height =
+            model.mass.iter().enumerate().map(|(i, mass)| mass * gravity * self.points.get(i as u32).y).sum();
         Energy { kinetic, elastic: stretch + bending, height }
     }
 }

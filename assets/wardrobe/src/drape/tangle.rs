@@ -51,7 +51,8 @@ impl Tangle {
 fn shortening(from: DVec3, to: DVec3, third: DVec3, normal: DVec3) -> Option<DVec3> {
     let edge = (to - from).try_normalize()?;
     let line = normal.cross(edge.cross(third - from)).try_normalize()?;
-    let inwards = if line.dot(third - from) - line.dot(edge) * edge.dot(third - from) < 0.0 { -line } else { line };
+    let inwards =
+        if line.dot(third - from) - line.dot(edge) * edge.dot(third - from) < 0.0 { -line } else { line };
     let upright = edge.dot(normal);
     (upright.abs() > 0.05).then(|| (inwards - normal * (edge.dot(inwards) / upright)).normalize_or_zero())
 }

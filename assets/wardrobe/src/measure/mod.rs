@@ -65,7 +65,9 @@ impl Figures {
     /// A line of a Markdown table.
     #[must_use]
     pub fn row(&self, name: &str) -> String {
-        let three = |p: &Percentiles, digits: usize| format!("{:.digits$} / {:.digits$} / {:.digits$}", p.p5, p.p50, p.p95);
+        let three = |p: &Percentiles, digits: usize| {
+            format!("{:.digits$} / {:.digits$} / {:.digits$}", p.p5, p.p50, p.p95)
+        };
         format!(
             "| {name} | {} | {} | {} | {} | {:.2} | {} | {} | {} |",
             self.triangles,
@@ -87,14 +89,27 @@ pub fn measure(garment: &CutGarment, draped: &Draped, body: &Body) -> Figures {
         .pieces
         .iter()
         .zip(&draped.positions)
-        .map(|(piece, places)| Sheet { flat: &piece.flat, places, triangles: &piece.triangles, grain: piece.grain })
+        .map(|(piece, places)| Sheet {
+            flat: &piece.flat,
+            places,
+            triangles: &piece.triangles,
+            grain: piece.grain,
+        })
         .collect();
-    let sewn = garment.joins.iter().filter(|join| join.kind == JoinKind::Sewn).flat_map(|join| join.pairs.iter().copied());
+    let sewn = garment
+        .joins
+        .iter()
+        .filter(|join| join.kind == JoinKind::Sewn)
+        .flat_map(|join| join.pairs.iter().copied());
     measure_sheets(&sheets, sewn, body)
 }
 
 /// Measures sheets of which vertices are `sewn` in pairs; a pair that names no vertex counts as wide open.
-pub fn measure_sheets(sheets: &[Sheet<'_>], sewn: impl IntoIterator<Item = (At, At)>, body: &Body) -> Figures {
+pub fn measure_sheets(
+    sheets: &[Sheet<'_>],
+    sewn: impl IntoIterator<Item = (At, At)>,
+    body: &Body,
+) -> Figures {
     let mut strains = Strains::default();
     sheets.iter().for_each(|sheet| strains.add(sheet));
     let place = |at: At| sheets.get(at.piece as usize).and_then(|sheet| sheet.places.get(at.vertex as usize));
@@ -135,7 +150,9 @@ impl Strains {
             if twice.abs() < 1e-14 {
                 continue;
             }
-            let along = |direction: DVec2| ((y - x) * direction.perp_dot(ac) + (z - x) * ab.perp_dot(direction)) / twice;
+            let along = |direction: DVec2| {
+                ((y - x) * direction.perp_dot(ac) + (z - x) * ab.perp_dot(direction)) / twice
+            };
             let (warp, weft) = (along(warp_direction), along(warp_direction.perp()));
             let area = 0.5 * twice.abs();
             self.angle.push((warp.angle_between(weft).to_degrees(), area));
@@ -161,7 +178,9 @@ fn percentiles(mut values: Vec<(f64, f64)>) -> Percentiles {
 
 fn inside(sheets: &[Sheet<'_>], body: &Body) -> usize {
     let of_sheet = |sheet: &Sheet<'_>| {
-        let centre = |corners: &[u32; 3]| corners.iter().map(|corner| sheet.places[*corner as usize]).sum::<DVec3>() / 3.0;
+        let centre = |corners: &[u32; 3]| {
+            corners.iter().map(|corner| sheet.places[*corner as usize]).sum::<DVec3>() / 3.0
+        };
         let places = sheet.places.iter().copied().chain(sheet.triangles.iter().map(centre));
         places.filter(|place| body.distance(*place) < 0.0).count()
     };

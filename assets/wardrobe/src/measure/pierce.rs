@@ -42,7 +42,8 @@ pub(super) fn pierced(sheets: &[Sheet<'_>]) -> Pierced {
         }
         spots
     };
-    let spots: Vec<DVec3> = (0..soup.triangles.len()).into_par_iter().with_min_len(256).flat_map_iter(of_triangle).collect();
+    let spots: Vec<DVec3> =
+        (0..soup.triangles.len()).into_par_iter().with_min_len(256).flat_map_iter(of_triangle).collect();
     let in_view = spots.par_iter().filter(|spot| soup.sees_out(**spot)).count();
     Pierced { spots: spots.len(), in_view }
 }
@@ -58,7 +59,8 @@ fn soup(sheets: &[Sheet<'_>]) -> Soup {
             })
         };
         let indices: Vec<u32> = sheet.places.iter().map(&mut index_of).collect();
-        soup.triangles.extend(sheet.triangles.iter().map(|corners| corners.map(|corner| indices[corner as usize])));
+        soup.triangles
+            .extend(sheet.triangles.iter().map(|corners| corners.map(|corner| indices[corner as usize])));
     }
     soup
 }

@@ -21,7 +21,10 @@ fn a_stretched_and_sheared_square_has_the_strain_it_was_given() {
     assert!((upright.angle.p50 - 90.0).abs() < 1e-9);
     let bias = measure_sheets(&[sheet(&places, 45.0)], [], &body);
     let expected = 2.0 * (0.9f64 / 1.1).atan();
-    assert!((bias.angle.p50 - (180.0 - expected.to_degrees())).abs() < 1e-9 || (bias.angle.p50 - expected.to_degrees()).abs() < 1e-9);
+    assert!(
+        (bias.angle.p50 - (180.0 - expected.to_degrees())).abs() < 1e-9
+            || (bias.angle.p50 - expected.to_degrees()).abs() < 1e-9
+    );
     assert!((bias.warp.p95 - (1.1f64.hypot(0.9) / 2f64.sqrt())).abs() < 1e-12);
 }
 
@@ -55,6 +58,7 @@ fn a_seam_is_as_wide_as_its_widest_pair_and_the_inside_counts() {
     let wide = measure_sheets(&[sheet(&floor, 0.0)], [(at(0), at(1)), (at(0), at(2))], &body);
     assert!((wide.seam_gap - 2f64.sqrt()).abs() < 1e-12);
     assert_eq!(wide.inside_body, 0);
-    let through: Vec<DVec3> = UNIT.iter().map(|flat| DVec3::new(flat.x, 1.0, flat.y) * 0.1 + DVec3::Y * 0.9).collect();
+    let through: Vec<DVec3> =
+        UNIT.iter().map(|flat| DVec3::new(flat.x, 1.0, flat.y) * 0.1 + DVec3::Y * 0.9).collect();
     assert_eq!(measure_sheets(&[sheet(&through, 0.0)], [], &body).inside_body, 6);
 }

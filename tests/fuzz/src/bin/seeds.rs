@@ -36,7 +36,9 @@ const LIGHTS: &str = r#"{"version": 1, "ambient": [0.1, 0.1, 0.1], "lights": [{"
 /// A node with a turned child; quantised positions of one triangle, as a strip with a sparse accessor.
 const GLTF: &str = r#"{"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_mesh_quantization"], "scene": 0,
     "scenes": [{"nodes": [0]}], "nodes": [{"children": [1], "scale": [2, 2, -2]},
-    {"mesh": 0, "name": "Body", "rotation": [0, 0, 0.6, 0.8], "extras": {"amc": {"fabric": true}}}],
+    {"mesh": 0, "name": "Body", "rotation": [0, 0, 0.6, 0.8], "extras": {"amc": {"version": 1, "fabric": true,
+    "name": "Sleeve", "uv_unit_m": 1, "grain_deg": 9e1, "mirror": "Body", "seams": [{"name": "underarm",
+    "edge": [[0, 0], [0, 1]], "partner": "Sleeve", "partner_edge": [[1, 0], [1, 1.5]]}]}}}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 5, "indices": 1}]}],
     "accessors": [{"bufferView": 0, "componentType": 5122, "normalized": true, "count": 3, "type": "VEC3",
     "max": [1, 1, 1], "min": [0, 0, 0], "sparse": {"count": 1, "indices": {"bufferView": 1, "componentType": 5121},
@@ -83,6 +85,8 @@ fn meshes() -> Outcome {
     let path = std::env::temp_dir().join("triangle.glb");
     export::tangents(&garment, &tangents(&garment, &directions)?, &directions, &path)?;
     put("gltf", "triangle.glb", &std::fs::read(&path)?)?;
+    export::garment(&garment, &path)?;
+    put("gltf", "garment.glb", &std::fs::read(&path)?)?;
     Ok(std::fs::remove_file(&path)?)
 }
 

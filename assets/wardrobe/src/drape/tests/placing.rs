@@ -16,7 +16,10 @@ fn around(limb: &str, radius: f64, flare: f64) -> Placement {
 fn wrapping_bends_but_does_not_stretch() {
     let body = Body::new(Figure::Standing);
     for flare in [0.0, 0.3, -0.2] {
-        let garment = cloths::single(Figure::Standing, cloths::rectangle("piece", 0.4, 0.3, 0.01, around("torso", 0.4, flare)));
+        let garment = cloths::single(
+            Figure::Standing,
+            cloths::rectangle("piece", 0.4, 0.3, 0.01, around("torso", 0.4, flare)),
+        );
         let places = place(&garment, &body, 0.0).unwrap();
         let piece = &garment.pieces[0];
         for [a, b, _] in &piece.triangles {
@@ -30,7 +33,10 @@ fn wrapping_bends_but_does_not_stretch() {
 #[test]
 fn a_piece_faces_outwards_with_its_top_up() {
     let body = Body::new(Figure::Standing);
-    let garment = cloths::single(Figure::Standing, cloths::rectangle("piece", 0.4, 0.3, 0.05, around("torso", 0.4, 0.2)));
+    let garment = cloths::single(
+        Figure::Standing,
+        cloths::rectangle("piece", 0.4, 0.3, 0.05, around("torso", 0.4, 0.2)),
+    );
     let places = &place(&garment, &body, 0.0).unwrap()[0];
     for corners in &garment.pieces[0].triangles {
         let [a, b, c] = corners.map(|corner| places[corner as usize]);
@@ -43,15 +49,18 @@ fn a_piece_faces_outwards_with_its_top_up() {
 
 #[test]
 fn a_limb_the_figure_lacks_is_named_with_the_piece() {
-    let garment = cloths::single(Figure::Ball, cloths::rectangle("sleeve", 0.4, 0.3, 0.05, around("tail", 0.4, 0.0)));
+    let garment =
+        cloths::single(Figure::Ball, cloths::rectangle("sleeve", 0.4, 0.3, 0.05, around("tail", 0.4, 0.0)));
     let error = place(&garment, &Body::new(Figure::Ball), 0.0).unwrap_err().to_string();
     assert!(error.contains("tail") && error.contains("sleeve"), "{error}");
 }
 
 #[test]
 fn a_finer_cut_lies_where_the_coarse_one_lay() {
-    let nowhere = Placement::Flat { point: [0.0; 2], at: [0.0; 3], across: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0] };
-    let cut = |edge: f64| cloths::single(Figure::Ball, cloths::rectangle("piece", 0.4, 0.3, edge, nowhere.clone()));
+    let nowhere =
+        Placement::Flat { point: [0.0; 2], at: [0.0; 3], across: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0] };
+    let cut =
+        |edge: f64| cloths::single(Figure::Ball, cloths::rectangle("piece", 0.4, 0.3, edge, nowhere.clone()));
     let (coarse, fine) = (cut(0.04), cut(0.013));
     let map = |flat: &DVec2| DVec3::new(0.3 * flat.x - flat.y, 2.0 + flat.x, 0.5 * flat.y);
     let draped = Draped { positions: vec![coarse.pieces[0].flat.iter().map(map).collect()] };

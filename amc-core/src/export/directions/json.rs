@@ -5,8 +5,9 @@ use std::io::Write;
 use glam::{Vec3, Vec4};
 use serde::{Serialize, Serializer};
 
-use super::{GENERATOR, Piece};
+use super::Piece;
 use crate::direction::Source;
+use crate::export::GENERATOR;
 use crate::{Error, Result};
 
 #[derive(Serialize)]
@@ -40,16 +41,16 @@ fn without_w<S: Serializer>(tangents: &&[Vec4], serializer: S) -> Result<S::Ok, 
 
 pub(super) fn write(pieces: &[Piece<'_>], out: &mut dyn Write) -> Result<()> {
     let panels = pieces.iter().map(|piece| PanelRecord {
-        id: &piece.panel.id,
-        name: &piece.panel.name,
+        id: &piece.mesh.panel.id,
+        name: &piece.mesh.panel.name,
         source: piece.direction.source,
         angle_deg: piece.angle_deg(),
-        takes_fabric: piece.panel.takes_fabric,
+        takes_fabric: piece.mesh.panel.takes_fabric,
         mean_direction: piece.mean_direction(),
-        vertices: piece.positions.len(),
+        vertices: piece.mesh.positions.len(),
         filled: piece.filled,
         made_up: piece.made_up,
-        positions: &piece.positions,
+        positions: &piece.mesh.positions,
         tangents: &piece.tangents,
     });
     let document = Document {

@@ -1,62 +1,45 @@
-//! One panel with vertices of its own, as all formats want it.
-
-use std::collections::HashMap;
+//! One panel with its direction.
 
 use glam::{Vec2, Vec3, Vec4};
 
+use super::PanelMesh;
 use crate::direction::{Direction, Source, Tangents};
-use crate::mesh::{Garment, Panel, uv_area};
+use crate::mesh::extras::shortest_degrees;
+use crate::mesh::uv_area;
 
-/// A panel's part of a garment.
+/// A panel's part of a garment, with its tangents.
 #[derive(Debug)]
 pub(super) struct Piece<'a> {
-    pub(super) panel: &'a Panel,
+    pub(super) mesh: PanelMesh<'a>,
     pub(super) direction: &'a Direction,
     /// Vertices whose direction its source does not give.
     pub(super) filled: u32,
     pub(super) made_up: bool,
-    /// Corners, into the vectors below.
-    pub(super) triangles: Vec<[u32; 3]>,
-    pub(super) positions: Vec<Vec3>,
-    pub(super) normals: Vec<Vec3>,
     /// xyz the direction; w +1, or -1 where the UVs are mirrored: with v up, v runs along `w * cross(normal, xyz)`.
     pub(super) tangents: Vec<Vec4>,
-    /// As drawn, v up; none where there are none.
-    pub(super) uvs: Option<Vec<Vec2>>,
 }
 
 impl<'a> Piece<'a> {
+    /// The panel `index` of a garment, whose `tangents` are one per vertex.
     pub(super) fn new(
-        garment: &Garment,
+        mesh: PanelMesh<'a>,
         tangents: &Tangents,
         index: usize,
-        panel: &'a Panel,
         direction: &'a Direction,
     ) -> Self {
-        let range = panel.triangles.start as usize..panel.triangles.end as usize;
-        let old = garment.triangles.get(range).unwrap_or_default();
-        let (mut places, mut vertices) = (HashMap::new(), Vec::new());
-        let mut place = |vertex: u32| {
-            *places.entry(vertex).or_insert_with(|| {
-                vertices.push(vertex as usize);
-                vertices.len() as u32 - 1
-            })
+        let usual = if mesh.panel.flags.mirrored { -1.0 } else { 1.0 };
+        let signs = match &mesh.uvs {
+            Some(uvs) => orientations(&mesh.triangles, uvs, usual),
+            None => vec![usual; mesh.vertices.len()],
         };
-        let triangles: Vec<[u32; 3]> = old.iter().map(|corners| corners.map(&mut place)).collect();
-        let uvs: Vec<Vec2> = vertices.iter().map(|&vertex| garment.uvs[vertex]).collect();
-        let signs = orientations(&triangles, &uvs, if panel.flags.mirrored { -1.0 } else { 1.0 });
         Self {
-            panel,
             direction,
             filled: tangents.filled[index],
             made_up: tangents.made_up[index],
-            triangles,
-            positions: vertices.iter().map(|&vertex| garment.positions[vertex]).collect(),
-            normals: vertices.iter().map(|&vertex| garment.normals[vertex]).collect(),
-            tangents: (vertices.iter().zip(signs))
-                .map(|(&vertex, sign)| tangents.vectors[vertex].extend(sign))
+            tangents: (mesh.vertices.iter().zip(signs))
+                .map(|(&vertex, sign)| tangents.vectors[vertex as usize].extend(sign))
                 .collect(),
-            uvs: garment.has_uvs.then_some(uvs),
+            mesh,
         }
     }
 
@@ -67,12 +50,12 @@ impl<'a> Piece<'a> {
             Source::Gradient | Source::Yarn => Vec2::from_angle(-self.direction.angle),
             Source::Field(_) => Vec2::X,
         };
-        Some(self.uvs.as_ref()?.iter().map(|uv| turn.rotate(*uv)).collect())
+        Some(self.mesh.uvs.as_ref()?.iter().map(|uv| turn.rotate(*uv)).collect())
     }
 
-    /// The angle in degrees, to four places: what a person typed comes back.
+    /// The angle in degrees, as short as it can be: what a person typed comes back.
     pub(super) fn angle_deg(&self) -> f64 {
-        (f64::from(self.direction.angle).to_degrees() * 1e4).round() / 1e4
+        shortest_degrees(self.direction.angle)
     }
 
     /// The mean of the directions; none where they cancel to less than a twentieth.
