@@ -43,7 +43,7 @@ impl Default for Options {
             sewing: 0.6,
             falling: 1.6,
             quieting: 1.2,
-            relaxing: [45.0, 90.0],
+            relaxing: [40.0, 60.0],
             rest_speed: 0.005,
             gravity: 9.81,
         }
