@@ -163,6 +163,8 @@ pub struct Join {
     pub name: String,
     /// Sewn or buttoned.
     pub kind: JoinKind,
+    /// Whether it is closed only once the others are.
+    pub late: bool,
     /// Which vertex meets which, in order along the seam. The two sides have equally many vertices: ease is spread by
     /// where they lie.
     pub pairs: Vec<(At, At)>,

@@ -196,6 +196,7 @@ impl Sampled {
                     SeamKind::Sewn => JoinKind::Sewn,
                     SeamKind::Layered => JoinKind::Layered,
                 },
+                late: seam.late,
                 pairs,
                 sides: seam.sides.each_ref().map(|side| side.iter().map(name).collect()),
             }

@@ -11,6 +11,7 @@ mod model;
 mod phases;
 mod place;
 mod points;
+mod sewing;
 mod solver;
 mod tangle;
 #[cfg(test)]

@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::layers::Layers;
 use super::model::Model;
 use super::solver::{Conditions, Energy, Solver, Thread};
-use super::{Draped, place};
+use super::{Draped, place, sewing};
 use crate::body::Body;
 use crate::cut::{At, CutGarment, JoinKind};
 
@@ -43,7 +43,7 @@ impl Default for Options {
             sewing: 0.6,
             falling: 1.6,
             quieting: 1.2,
-            relaxing: [45.0, 90.0],
+            relaxing: [40.0, 60.0],
             rest_speed: 0.005,
             gravity: 9.81,
         }
@@ -72,8 +72,6 @@ impl Rest {
 /// Bounds of the distance between layers, in mean edges.
 const LEAST_LAYER: f64 = 0.2;
 const MOST_LAYER: f64 = 0.5;
-/// A seam wider than this after sewing has not closed, metres.
-const CLOSED: f64 = 0.004;
 /// Between two looks at energies and speeds, seconds.
 const FRAME: f64 = 1.0 / 60.0;
 /// Drag of the air while sewing, falling, relaxing on a finer level and quieting, 1/seconds.
@@ -94,7 +92,7 @@ pub(super) fn sew_and_drape(
     progress: &Progress<'_>,
 ) -> Result<(Draped, Rest)> {
     let placed = place::place(garment, body, options.margin)?;
-    let sewn = sew(garment, &placed, body, options, progress)?;
+    let sewn = sewing::sew(garment, &placed, body, options, SEWING_SOFTNESS, progress)?;
     settle_and_drape(garment, &sewn, body, options, SEWING_SOFTNESS, progress)
 }
 
@@ -111,71 +109,19 @@ pub(super) fn relax(
     settle_and_drape(garment, &start, body, options, 1.0, progress)
 }
 
-fn pairs(garment: &CutGarment, kind: JoinKind) -> impl Iterator<Item = (&str, At, At)> {
+fn pairs(garment: &CutGarment, kind: JoinKind) -> impl Iterator<Item = (At, At)> {
     let joins = garment.joins.iter().filter(move |join| join.kind == kind);
-    joins.flat_map(|join| join.pairs.iter().map(|(one, other)| (join.name.as_str(), *one, *other)))
+    joins.flat_map(|join| join.pairs.iter().copied())
 }
 
-fn sewn_pairs(garment: &CutGarment) -> Vec<(At, At)> {
-    pairs(garment, JoinKind::Sewn).map(|(_, one, other)| (one, other)).collect()
+/// Which vertices become one.
+pub(super) fn sewn_pairs(garment: &CutGarment) -> Vec<(At, At)> {
+    pairs(garment, JoinKind::Sewn).collect()
 }
 
-fn layer(model: &Model, options: &Options) -> f64 {
+/// How far layers keep off each other, metres.
+pub(super) fn layer(model: &Model, options: &Options) -> f64 {
     options.layer.max(LEAST_LAYER * model.edge_length).min(MOST_LAYER * model.edge_length)
-}
-
-/// Closes the seams: without weight, each seam's threads shorten to nothing in the same time.
-fn sew(
-    garment: &CutGarment,
-    placed: &[Vec<DVec3>],
-    body: &Body,
-    options: &Options,
-    progress: &Progress<'_>,
-) -> Result<Vec<Vec<DVec3>>> {
-    let pairs: Vec<_> = pairs(garment, JoinKind::Sewn).collect();
-    if pairs.is_empty() {
-        return Ok(placed.to_vec());
-    }
-    let model = Model::new(garment, &[]);
-    let welded = Model::new(garment, &sewn_pairs(garment));
-    let identity = welded.particle_of.iter().flatten().copied().collect();
-    let layers = Layers::new(&model, identity, layer(&model, options));
-    let mut solver = Solver::new(
-        &model,
-        body,
-        &model.gather(placed),
-        options.margin,
-        layers,
-        options.step * model.edge_length,
-    );
-    let thread = |(_, one, other): &(&str, At, At)| {
-        let ends = [model.particle(*one), model.particle(*other)];
-        let length = solver.points.get(ends[0]).distance(solver.points.get(ends[1]));
-        Thread { ends, most: length }
-    };
-    let full: Vec<Thread> = pairs.iter().map(thread).collect();
-    let substeps = (options.sewing / solver.step).ceil() as usize;
-    let conditions = Conditions { gravity: 0.0, drag: SEWING_DRAG, softness: SEWING_SOFTNESS };
-    for substep in 0..substeps + substeps / 4 {
-        let left = (1.0 - (substep + 1) as f64 / substeps as f64).max(0.0);
-        solver.threads = full.iter().map(|thread| Thread { most: thread.most * left, ..*thread }).collect();
-        solver.advance(conditions);
-        if substep % 64 == 0 {
-            progress.step("sewing", substep, substeps)?;
-        }
-    }
-    check(&solver)?;
-    for ((name, ..), thread) in pairs.iter().zip(&full) {
-        let gap = solver.points.get(thread.ends[0]).distance(solver.points.get(thread.ends[1]));
-        if gap.is_nan() || gap > CLOSED {
-            let what = format!(
-                "the seam does not close: {:.1} mm stay open; place its pieces nearer to each other",
-                gap * 1e3
-            );
-            return Err(Error::invalid(what).at_element(format!("seam \"{name}\"")));
-        }
-    }
-    Ok(model.scatter(&solver.points.to_vec()))
 }
 
 /// Welds the seams and lets the garment fall until it is still.
@@ -199,7 +145,7 @@ fn settle_and_drape(
         options.step * model.edge_length,
     );
     let buttons =
-        pairs(garment, JoinKind::Layered).map(|(_, one, other)| [model.particle(one), model.particle(other)]);
+        pairs(garment, JoinKind::Layered).map(|(one, other)| [model.particle(one), model.particle(other)]);
     solver.threads = buttons.map(|ends| Thread { ends, most: thickness }).collect();
     let mut rest = Rest::default();
     let gravity = options.gravity;
@@ -226,7 +172,7 @@ fn settle_and_drape(
     Ok((Draped { positions: model.scatter(&solver.points.to_vec()) }, rest))
 }
 
-fn check(solver: &Solver<'_>) -> Result<()> {
+pub(super) fn check(solver: &Solver<'_>) -> Result<()> {
     let what = "the cloth flew apart or fell off the body: look at its placement, its size and its stiffness";
     if solver.blown_up { Err(Error::invalid(what)) } else { Ok(()) }
 }

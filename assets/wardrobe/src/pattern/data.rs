@@ -192,6 +192,9 @@ pub struct Seam {
     /// The two notches on the longer side between which the ease is spread; evenly along the whole seam where not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub between: Option<[String; 2]>,
+    /// Whether it is closed only once the others are: a collar's, which would bar their way.
+    #[serde(default)]
+    pub late: bool,
     /// Whether its mirror image is sewn as well: `left` and `right` exchanged in all its names.
     #[serde(default)]
     pub mirrored: bool,

@@ -72,6 +72,8 @@ pub struct WholeSeam {
     pub sides: [Vec<SidePart>; 2],
     /// Where the ease starts and ends: which side is longer, and the distances along it, metres. `None`: evenly spread.
     pub between: Option<(usize, [f64; 2])>,
+    /// Whether it is closed only once the others are.
+    pub late: bool,
 }
 
 /// A part of a line on one side of a seam.

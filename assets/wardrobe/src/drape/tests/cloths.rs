@@ -108,6 +108,7 @@ pub(super) fn tube(edge: f64) -> CutGarment {
         Join {
             name: name.to_owned(),
             kind: JoinKind::Sewn,
+            late: false,
             pairs: at(0, &front.lines[one]).into_iter().zip(at(1, &back.lines[other])).collect(),
             sides: [vec![(0, one.to_owned())], vec![(1, other.to_owned())]],
         }

@@ -1,0 +1,106 @@
+//! Seams closed round the body.
+
+use amc_core::{Error, Progress, Result};
+use glam::DVec3;
+
+use super::layers::Layers;
+use super::model::Model;
+use super::phases::{Options, check, layer, sewn_pairs};
+use super::solver::{Conditions, Solver, Thread};
+use crate::body::Body;
+use crate::cut::{At, CutGarment, Join, JoinKind};
+
+/// A seam wider than this after sewing has not closed, metres.
+const CLOSED: f64 = 0.004;
+/// Drag of the air, 1/seconds.
+const DRAG: f64 = 10.0;
+
+/// Closes the seams without weight and friction, late ones after the others. Each seam's threads shorten in the same time: to
+/// nothing, or to one layer where it holds two layers together. `softness`: how much stretchier the cloth is meanwhile.
+pub(super) fn sew(
+    garment: &CutGarment,
+    placed: &[Vec<DVec3>],
+    body: &Body,
+    options: &Options,
+    softness: f64,
+    progress: &Progress<'_>,
+) -> Result<Vec<Vec<DVec3>>> {
+    if garment.joins.is_empty() {
+        return Ok(placed.to_vec());
+    }
+    let mut model = Model::new(garment, &[]);
+    model.friction = 0.0;
+    let welded = Model::new(garment, &sewn_pairs(garment));
+    let identity = welded.particle_of.iter().flatten().copied().collect();
+    let thickness = layer(&model, options);
+    let layers = Layers::new(&model, identity, thickness);
+    let places = model.gather(placed);
+    let step = options.step * model.edge_length;
+    let mut solver = Solver::new(&model, body, &places, options.margin, layers, step);
+    let closings = closings(garment, &model, &places, thickness);
+    let substeps = (options.sewing / step).ceil() as usize;
+    let rounds = if closings.iter().any(|closing| closing.late) { 2 } else { 1 };
+    let conditions = Conditions { gravity: 0.0, drag: DRAG, softness };
+    for substep in 0..rounds * substeps + substeps / 4 {
+        let time = (substep + 1) as f64 / substeps as f64;
+        solver.threads = closings.iter().map(|closing| closing.thread(time)).collect();
+        solver.advance(conditions);
+        if substep % 64 == 0 {
+            progress.step("sewing", substep, rounds * substeps)?;
+        }
+    }
+    check(&solver)?;
+    let places = solver.points.to_vec();
+    closed(garment, &model, &places)?;
+    Ok(model.scatter(&places))
+}
+
+/// A thread of a seam that is being closed.
+struct Closing {
+    ends: [u32; 2],
+    /// Its length at first and in the end, metres.
+    lengths: [f64; 2],
+    /// Whether it waits for the others.
+    late: bool,
+}
+
+impl Closing {
+    /// The thread as it is at `time`: from 0 to 1 seams close, from 1 to 2 late ones.
+    fn thread(&self, time: f64) -> Thread {
+        let left = (1.0 + f64::from(u8::from(self.late)) - time).clamp(0.0, 1.0);
+        let [first, last] = self.lengths;
+        Thread { ends: self.ends, most: last + (first - last).max(0.0) * left }
+    }
+}
+
+fn closings(garment: &CutGarment, model: &Model, places: &[DVec3], thickness: f64) -> Vec<Closing> {
+    let of_join = |join: &Join| {
+        let last = if join.kind == JoinKind::Sewn { 0.0 } else { thickness };
+        let late = join.late;
+        let closing = move |(one, other): &(At, At)| {
+            let ends = [model.particle(*one), model.particle(*other)];
+            let [a, b] = ends.map(|end| places[end as usize]);
+            Closing { ends, lengths: [a.distance(b), last], late }
+        };
+        join.pairs.iter().map(closing).collect::<Vec<_>>()
+    };
+    garment.joins.iter().flat_map(of_join).collect()
+}
+
+/// Refuses a seam that stays open.
+fn closed(garment: &CutGarment, model: &Model, places: &[DVec3]) -> Result<()> {
+    let place = |at: At| places[model.particle(at) as usize];
+    for join in garment.joins.iter().filter(|join| join.kind == JoinKind::Sewn) {
+        for (one, other) in &join.pairs {
+            let gap = place(*one).distance(place(*other));
+            if gap.is_nan() || gap > CLOSED {
+                let what = format!(
+                    "the seam does not close: {:.1} mm stay open; place its pieces nearer to each other",
+                    gap * 1e3
+                );
+                return Err(Error::invalid(what).at_element(format!("seam \"{}\"", join.name)));
+            }
+        }
+    }
+    Ok(())
+}
