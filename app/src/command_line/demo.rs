@@ -12,7 +12,7 @@ use super::render::PictureFormat;
 use crate::scene::{Fabrics, drawing, load_garment, panel_looks};
 
 /// What wears it.
-const SCENE: &str = "shape:sheet";
+const SCENE: &str = "garment:shirt";
 
 /// Where the picture goes: the current folder.
 const PICTURE: &str = "amc-studio.png";
@@ -22,7 +22,7 @@ const SIDE: u32 = 1024;
 
 pub(super) fn run(output: &Output) -> Outcome {
     let garment = load_garment(Path::new(SCENE), Unit::Metre)?;
-    let orientation = Orientation { yaw: -0.4, pitch: 0.35, roll: 0.0 };
+    let orientation = Orientation { yaw: -0.4, pitch: 0.15, roll: 0.0 };
     let view = View::fitted(&garment.positions, orientation, SIDE, SIDE)?;
     let (picture, renderer) = with_progress(|progress| {
         let mut fabrics = Fabrics::default();

@@ -10,9 +10,22 @@ struct Bundled {
     glb: &'static [u8],
 }
 
-/// All of them. A garment is one line here and one file, for example
-/// `Bundled { name: "shirt", glb: include_bytes!("../../../assets/garments/shirt.glb") }`.
-const GARMENTS: [Bundled; 0] = [];
+macro_rules! bundled {
+    ($name:literal) => {
+        Bundled { name: $name, glb: include_bytes!(concat!("../../../assets/garments/", $name, ".glb")) }
+    };
+}
+
+/// All of them. A garment is one line here and one file.
+const GARMENTS: [Bundled; 7] = [
+    bundled!("t-shirt"),
+    bundled!("shirt"),
+    bundled!("trousers"),
+    bundled!("a-line-skirt"),
+    bundled!("bias-skirt"),
+    bundled!("scarf"),
+    bundled!("square"),
+];
 
 /// The bundled garment of this name.
 ///
@@ -21,8 +34,7 @@ const GARMENTS: [Bundled; 0] = [];
 pub(super) fn garment(name: &str) -> Result<Mesh> {
     let Some(found) = GARMENTS.iter().find(|garment| garment.name == name) else {
         let known: Vec<&str> = GARMENTS.iter().map(|garment| garment.name).collect();
-        let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
-        return Err(Error::invalid(format!("no garment '{name}' is bundled: there are {known}")));
+        return Err(Error::invalid(format!("no garment '{name}' is bundled: there are {}", known.join(", "))));
     };
     gltf::parse(found.glb, &|_| Err(Error::invalid("a bundled garment is one file")))
 }

@@ -32,8 +32,10 @@ macro_rules! entry {
 }
 
 /// All of them. A garment is one line here and one pattern.
-pub const COLLECTION: [Entry; 5] = [
+pub const COLLECTION: [Entry; 7] = [
     entry!("t-shirt", 0.013),
+    entry!("shirt", 0.012),
+    entry!("trousers", 0.013),
     entry!("a-line-skirt", 0.012),
     entry!("bias-skirt", 0.012),
     entry!("scarf", 0.013),
