@@ -104,3 +104,25 @@ fn closed(garment: &CutGarment, model: &Model, places: &[DVec3]) -> Result<()> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn late_seams_stay_open_until_the_others_are_closed() {
+        let most =
+            |late: bool, time: f64| Closing { ends: [0, 1], lengths: [0.3, 0.002], late }.thread(time).most;
+        assert!((most(false, 0.5) - 0.151).abs() < 1e-12);
+        assert!((most(true, 0.5) - 0.3).abs() < 1e-12);
+        assert!((most(false, 1.0) - 0.002).abs() < 1e-12);
+        assert!((most(true, 1.5) - 0.151).abs() < 1e-12);
+        assert!((most(true, 2.2) - 0.002).abs() < 1e-12);
+    }
+
+    #[test]
+    fn layers_that_lie_close_are_not_drawn_apart_by_their_thread() {
+        let near = Closing { ends: [0, 1], lengths: [0.001, 0.002], late: false };
+        assert!((near.thread(0.0).most - 0.002).abs() < 1e-12);
+    }
+}

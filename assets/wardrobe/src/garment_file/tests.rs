@@ -35,7 +35,7 @@ fn join(name: &str, pairs: &[[u32; 4]]) -> Join {
     let pair =
         |&[piece, vertex, other, at]: &[u32; 4]| (At { piece, vertex }, At { piece: other, vertex: at });
     let pairs = pairs.iter().map(pair).collect();
-    Join { name: name.to_owned(), kind: JoinKind::Sewn, pairs, sides: [Vec::new(), Vec::new()] }
+    Join { name: name.to_owned(), kind: JoinKind::Sewn, late: false, pairs, sides: [Vec::new(), Vec::new()] }
 }
 
 /// Two squares sewn along the left one's right side, at a right angle, and a tab sewn to both of their upper sides.

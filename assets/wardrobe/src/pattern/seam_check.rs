@@ -64,7 +64,8 @@ fn whole(seam: &Seam, pieces: &[WholePiece]) -> Result<WholeSeam> {
     };
     let both = || Ok([side(&seam.a, false)?, side(&seam.b, true)?]);
     let sides = both().map_err(named(&seam.name))?;
-    let mut whole = WholeSeam { name: seam.name.clone(), kind: seam.kind, sides, between: None, late: seam.late };
+    let mut whole =
+        WholeSeam { name: seam.name.clone(), kind: seam.kind, sides, between: None, late: seam.late };
     let check = |whole: &mut WholeSeam| {
         if points(whole, pieces)? {
             return Ok(());

@@ -11,7 +11,7 @@ use super::*;
 type Change = fn(&mut Value);
 
 /// The patterns that this crate ships.
-pub(crate) const SHIPPED: [&str; 5] = ["square", "scarf", "t-shirt", "a-line-skirt", "bias-skirt"];
+pub(crate) const SHIPPED: [&str; 6] = ["square", "scarf", "t-shirt", "a-line-skirt", "bias-skirt", "shirt"];
 
 fn file(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("patterns/{name}.json"))
