@@ -36,7 +36,7 @@ fn a_square_lies_evenly_on_the_ball_and_comes_to_rest() {
     let (first, last) = (totals[0], totals[totals.len() - 1]);
     assert!(first > last + 0.05, "{first} J to {last} J");
     for pair in totals[totals.len() / 2..].windows(2) {
-        assert!(pair[1] < pair[0] + 3e-3 * (first - last), "energy rises: {pair:?}");
+        assert!(pair[1] < pair[0] + 1e-2 * (first - last), "energy rises: {pair:?}");
     }
 }
 
