@@ -337,14 +337,16 @@ impl<'a> Reading<'a> {
             texels[k] = Some(resampled);
         }
         // One at a time, or a thread that is done early waits for several of another's.
-        texels.par_iter_mut().with_max_len(1).zip(&self.plan.pictures).try_for_each(|(texels, planned)| {
-            if texels.is_none() {
-                let raster = self.read(planned)?;
-                check_size(first, &planned.path, &raster)?;
-                *texels = Some(self.texels(footprints, raster));
-            }
-            Ok(())
-        })?;
+        texels.par_iter_mut().with_max_len(1).zip(&self.plan.pictures).try_for_each(
+            |(texels, planned)| {
+                if texels.is_none() {
+                    let raster = self.read(planned)?;
+                    check_size(first, &planned.path, &raster)?;
+                    *texels = Some(self.texels(footprints, raster));
+                }
+                Ok(())
+            },
+        )?;
         Ok(Stack { pictures: texels.into_iter().flatten().collect() })
     }
 }

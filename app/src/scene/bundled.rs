@@ -34,7 +34,10 @@ const GARMENTS: [Bundled; 7] = [
 pub(super) fn garment(name: &str) -> Result<Mesh> {
     let Some(found) = GARMENTS.iter().find(|garment| garment.name == name) else {
         let known: Vec<&str> = GARMENTS.iter().map(|garment| garment.name).collect();
-        return Err(Error::invalid(format!("no garment '{name}' is bundled: there are {}", known.join(", "))));
+        return Err(Error::invalid(format!(
+            "no garment '{name}' is bundled: there are {}",
+            known.join(", ")
+        )));
     };
     gltf::parse(found.glb, &|_| Err(Error::invalid("a bundled garment is one file")))
 }
