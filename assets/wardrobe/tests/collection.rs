@@ -4,9 +4,12 @@
 
 use std::path::{Path, PathBuf};
 
+use amc_core::Progress;
 use amc_core::mesh::{self, Garment, Unit};
 use wardrobe::body::Body;
 use wardrobe::collection::{COLLECTION, Entry};
+use wardrobe::drape::{Energy, Options, linger};
+use wardrobe::garment_file::{self, Variant, turn_of_part};
 use wardrobe::measure::{Figures, measure};
 
 /// Bytes of a file, triangles of a garment.
@@ -119,5 +122,45 @@ fn cloth_is_sheared_and_stretched_as_cloth_is() {
             assert!(stretch.p5 > 0.93 && stretch.p95 < 1.12, "{row}");
             assert!((stretch.p50 - 1.0).abs() < 0.03, "{row}");
         }
+    }
+}
+
+/// Joules that the energy may rise by in the time of the test: contacts and friction do a little work of their own.
+const MOST_RISE: f64 = 2e-3;
+
+/// Metres per second of the fastest vertex.
+const ALMOST_STILL: f64 = 0.05;
+
+#[test]
+fn drapes_lie_still_and_their_energy_does_not_rise() {
+    for entry in &COLLECTION {
+        let (cut, draped) = entry.draped(&folder()).unwrap();
+        let body = Body::new(cut.figure);
+        let rest = linger(&cut, &draped, &body, 0.05, &Options::default(), &Progress::none()).unwrap();
+        let totals: Vec<f64> = rest.energies.iter().map(Energy::total).collect();
+        assert!(totals.len() > 2, "{}", entry.name);
+        let rise = totals[totals.len() - 1] - totals[0];
+        assert!(rise < MOST_RISE, "{}: {rise} J", entry.name);
+        assert!(rest.fastest < ALMOST_STILL, "{}: {} m/s", entry.name, rest.fastest);
+    }
+}
+
+#[test]
+fn the_shirts_variants_are_what_programs_are_tested_with() {
+    let shirt = Entry::named("shirt").unwrap();
+    let (cut, draped) = shirt.draped(&folder()).unwrap();
+    let plain = Garment::new(garment_file::mesh(&cut, &draped).unwrap()).unwrap();
+    let variant = |variant: Variant| {
+        let mut mesh = garment_file::mesh(&cut, &draped).unwrap();
+        variant.apply(&mut mesh);
+        Garment::new(mesh).unwrap()
+    };
+    let mirrored = variant(Variant::Mirrored);
+    assert!(mirrored.panels.iter().all(|panel| panel.flags.mirrored));
+    assert!(!variant(Variant::WithoutUvs).has_uvs);
+    let turned = variant(Variant::Turned);
+    for (part, (panel, was)) in turned.panels.iter().zip(&plain.panels).enumerate() {
+        let by = f64::from(panel.pattern.grain.unwrap() - was.pattern.grain.unwrap());
+        assert!((by - turn_of_part(part)).sin().abs() < 1e-5, "{}: {by}", panel.name);
     }
 }

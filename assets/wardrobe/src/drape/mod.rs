@@ -56,6 +56,26 @@ pub fn drape(
     rayon::scope(|_| drape_levels(coarsest, finer, body, options, progress))
 }
 
+/// Leaves a draped garment lying for `seconds` more, and tells whether it still moves and how its energy goes.
+///
+/// # Errors
+/// Cancelled, places that are not of this cut, or a cloth that flies apart.
+pub fn linger(
+    garment: &CutGarment,
+    draped: &Draped,
+    body: &Body,
+    seconds: f64,
+    options: &Options,
+    progress: &Progress<'_>,
+) -> Result<Rest> {
+    check(garment)?;
+    let counts = garment.pieces.iter().map(|piece| piece.flat.len());
+    if !counts.eq(draped.positions.iter().map(Vec::len)) {
+        return Err(Error::invalid("the places are not of this cut: draped from another one"));
+    }
+    rayon::scope(|_| phases::linger(garment, draped, body, options, seconds, progress))
+}
+
 fn drape_levels(
     coarsest: &CutGarment,
     finer: &[CutGarment],

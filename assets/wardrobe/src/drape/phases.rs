@@ -124,6 +124,42 @@ pub(super) fn layer(model: &Model, options: &Options) -> f64 {
     options.layer.max(LEAST_LAYER * model.edge_length).min(MOST_LAYER * model.edge_length)
 }
 
+/// A garment whose seams are welded, without motion.
+fn sewn<'a>(
+    model: &'a Model,
+    garment: &CutGarment,
+    start: &[Vec<DVec3>],
+    body: &'a Body,
+    options: &Options,
+) -> Solver<'a> {
+    let thickness = layer(model, options);
+    let layers = Layers::new(model, (0..model.mass.len() as u32).collect(), thickness);
+    let step = options.step * model.edge_length;
+    let mut solver = Solver::new(model, body, &model.gather(start), options.margin, layers, step);
+    let buttons =
+        pairs(garment, JoinKind::Layered).map(|(_, one, other)| [model.particle(one), model.particle(other)]);
+    solver.threads = buttons.map(|ends| Thread { ends, most: thickness }).collect();
+    solver
+}
+
+/// Leaves a draped garment lying for some time, under the conditions in which it came to rest.
+pub(super) fn linger(
+    garment: &CutGarment,
+    draped: &Draped,
+    body: &Body,
+    options: &Options,
+    seconds: f64,
+    progress: &Progress<'_>,
+) -> Result<Rest> {
+    let model = Model::new(garment, &sewn_pairs(garment));
+    let mut solver = sewn(&model, garment, &draped.positions, body, options);
+    let mut rest = Rest { energies: vec![solver.energy(options.gravity)], ..Rest::default() };
+    let never_still = Options { rest_speed: -1.0, ..options.clone() };
+    let quiet = |_| Conditions { gravity: options.gravity, drag: QUIETING_DRAG, softness: 1.0 };
+    run(&mut solver, seconds, &never_still, &mut rest, quiet, ("lying", progress))?;
+    Ok(rest)
+}
+
 /// Welds the seams and lets the garment fall until it is still.
 fn settle_and_drape(
     garment: &CutGarment,
@@ -134,19 +170,7 @@ fn settle_and_drape(
     progress: &Progress<'_>,
 ) -> Result<(Draped, Rest)> {
     let model = Model::new(garment, &sewn_pairs(garment));
-    let thickness = layer(&model, options);
-    let layers = Layers::new(&model, (0..model.mass.len() as u32).collect(), thickness);
-    let mut solver = Solver::new(
-        &model,
-        body,
-        &model.gather(start),
-        options.margin,
-        layers,
-        options.step * model.edge_length,
-    );
-    let buttons =
-        pairs(garment, JoinKind::Layered).map(|(one, other)| [model.particle(one), model.particle(other)]);
-    solver.threads = buttons.map(|ends| Thread { ends, most: thickness }).collect();
+    let mut solver = sewn(&model, garment, start, body, options);
     let mut rest = Rest::default();
     let gravity = options.gravity;
     let coarsest = softness > 1.0;
