@@ -137,7 +137,7 @@ fn sewn<'a>(
     let step = options.step * model.edge_length;
     let mut solver = Solver::new(model, body, &model.gather(start), options.margin, layers, step);
     let buttons =
-        pairs(garment, JoinKind::Layered).map(|(_, one, other)| [model.particle(one), model.particle(other)]);
+        pairs(garment, JoinKind::Layered).map(|(one, other)| [model.particle(one), model.particle(other)]);
     solver.threads = buttons.map(|ends| Thread { ends, most: thickness }).collect();
     solver
 }
