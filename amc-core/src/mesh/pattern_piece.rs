@@ -13,7 +13,7 @@ const SEAM_LIMIT: usize = 4096;
 
 /// What a sewing pattern says of one piece of cloth; a mesh file need not say any of it.
 ///
-/// `Partner` stands for another piece: its name in a [`Part`], its index in [`Garment::panels`] in a [`Panel`].
+/// `Partner` stands for another piece: its name in a [`Part`], its index in [`Garment::panels`] in a [`Panel`](super::Panel).
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PatternPiece<Partner> {
     /// The warp's direction: radians in the flat pattern, counter-clockwise from +u as drawn with v up.
