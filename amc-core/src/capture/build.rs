@@ -1,38 +1,27 @@
 //! The build: pictures to texels, texels along the turn to slices.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{LazyLock, Mutex};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec2;
-use half::f16;
-use half::slice::HalfFloatSliceExt as _;
-use rayon::prelude::*;
 
 use super::ball;
 use super::cone::{Lens, Sight};
-use super::fill::RimFill;
-use super::pictures::{Plan, Planned};
+use super::pictures::Plan;
+use super::reading::Reading;
 use super::report::{Ball, BuildReport};
-use super::resample::{Footprints, MOST_LIGHT, Texel};
+use super::resample::Footprints;
 use super::session::Turn;
+use super::slices::Slicing;
 use super::symmetry::{self, Analysis, DEFAULT_THRESHOLD};
-use super::turn::{Direction, Spline, Stack, reading_turn};
-use crate::amc::{Amc, Frame, Symmetry, TableSize, TexelFormat, Texels};
-use crate::color::srgb8_from_linear;
-use crate::image::decode::{MOST_BYTES, Raster, decode_reusing};
+use super::turn::Spline;
+use crate::amc::{Amc, Frame, Symmetry, TableSize, TexelFormat};
+use crate::image::decode::Raster;
 use crate::view_space::Azimuth;
 use crate::{Error, Progress, Result};
 
-/// The most pictures kept to find the ball in (an odd number: a cloth of even R shows each a different look), and the most bytes that they may take beyond the first few.
-const KEPT: usize = 5;
-const KEPT_BYTES: u64 = 64 << 20;
-
 /// The most bytes that the resampled texels of all pictures may take: 8 GiB.
 const MOST_STACK_BYTES: u64 = 8 << 30;
-
-/// Texels resampled along the turn at once.
-const BLOCK: usize = 64;
 
 /// How to build.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,7 +87,7 @@ pub struct Built {
 pub fn build(source: &Path, options: &BuildOptions, progress: &Progress<'_>) -> Result<Built> {
     check(options)?;
     let plan = Plan::of(source, options.turn)?;
-    let reading = Reading { plan: &plan, progress, done: AtomicUsize::new(0), buffers: Mutex::default() };
+    let reading = Reading::new(&plan, progress);
     let (first, mut kept) = reading.keep()?;
     let lens = Lens::new(options.horizontal_fov, first.width(), first.height())?;
     let (sight, residual) = match options.sphere {
@@ -139,22 +128,10 @@ pub fn build(source: &Path, options: &BuildOptions, progress: &Progress<'_>) -> 
     let symmetry = options.symmetry.unwrap_or_else(|| analysis.symmetry(options.threshold));
     let slices = options.slices.unwrap_or_else(|| nearest_slices(plan.pictures.len(), symmetry));
     let size = TableSize::new(options.side, slices)?;
-    let directions = symmetry.order() * slices;
-    let slicing = Slicing {
-        size,
-        directions: (0..directions)
-            .map(|k| Direction::new(std::f64::consts::TAU * f64::from(k) / f64::from(directions)))
-            .collect(),
-        symmetry,
-        azimuth: options.azimuth,
-        // The mean over the turn, unless the person asked for R = 1.
-        one_look: analysis.isotropic && options.symmetry.is_none(),
-        footprints: &footprints,
-        spline: &spline,
-        half_turns: if symmetry.order().is_multiple_of(2) { spline.of_half_turns() } else { None },
-        progress,
-    };
-    let (texels, coverage) = slicing.table(&stack, options.format)?;
+    // The mean over the turn, unless the person asked for R = 1.
+    let one_look = analysis.isotropic && options.symmetry.is_none();
+    let slicing = Slicing::new(size, symmetry, options.azimuth, one_look, &footprints, &spline);
+    let (texels, coverage) = slicing.table(&stack, options.format, progress)?;
     let mut amc = Amc::new(size, texels, symmetry, options.azimuth, frame)?;
     let (at, radius) = sight.ball();
     let report = BuildReport {
@@ -231,317 +208,6 @@ fn notices(
             .push(format!("the pictures do not repeat {} times in a turn, as was asked for", asked.order()));
     }
     notices
-}
-
-/// What all pictures must share, and what is known of the first.
-struct First<'a> {
-    path: &'a Path,
-    size: [u32; 2],
-    has_alpha: bool,
-}
-
-impl First<'_> {
-    fn width(&self) -> u32 {
-        self.size[0]
-    }
-
-    fn height(&self) -> u32 {
-        self.size[1]
-    }
-}
-
-/// Reading the pictures.
-struct Reading<'a> {
-    plan: &'a Plan,
-    progress: &'a Progress<'a>,
-    done: AtomicUsize,
-    /// Memory of pictures that are done with: about one for each thread.
-    buffers: Mutex<Vec<Vec<u8>>>,
-}
-
-impl<'a> Reading<'a> {
-    /// The texels of a picture, which is done with.
-    fn texels(&self, footprints: &Footprints, raster: Raster) -> Vec<f16> {
-        let texels = footprints.resample(&raster);
-        if let (Some(buffer), Ok(mut buffers)) = (raster.into_buffer(), self.buffers.lock()) {
-            buffers.push(buffer);
-        }
-        texels
-    }
-
-    fn read(&self, planned: &Planned) -> Result<Raster> {
-        if self.progress.is_cancelled() {
-            return Err(Error::cancelled());
-        }
-        let bytes = crate::file::read(&planned.path, MOST_BYTES)?;
-        let buffer = self.buffers.lock().map_or_else(|_| None, |mut buffers| buffers.pop());
-        let raster = decode_reusing(&bytes, buffer.unwrap_or_default())
-            .map_err(|error| error.in_file(&planned.path))?;
-        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-        self.progress.step("reading pictures", done, self.plan.pictures.len())?;
-        Ok(raster)
-    }
-
-    /// Reads a few pictures, spread evenly over the turn, to find the ball in.
-    fn keep(&self) -> Result<(First<'a>, Vec<(usize, Raster)>)> {
-        let pictures = &self.plan.pictures;
-        let Some(planned) = pictures.first() else { return Err(Error::invalid("there are no pictures")) };
-        let raster = self.read(planned)?;
-        let first = First {
-            path: &planned.path,
-            size: [raster.width(), raster.height()],
-            has_alpha: raster.has_alpha(),
-        };
-        let kept = ((KEPT_BYTES / raster.bytes().max(1)) as usize).clamp(3, KEPT).min(pictures.len());
-        let others: Vec<usize> = (1..kept).map(|k| k * pictures.len() / kept).collect();
-        let mut rasters: Vec<(usize, Raster)> =
-            others.par_iter().map(|&k| self.read_like(&first, k)).collect::<Result<_>>()?;
-        rasters.insert(0, (0, raster));
-        Ok((first, rasters))
-    }
-
-    /// Reads pictures more while the search goes on, at most [`KEPT_BYTES`] of them.
-    fn ahead(
-        &self,
-        first: &First<'_>,
-        kept: &[(usize, Raster)],
-        searching: &AtomicBool,
-    ) -> Result<Vec<(usize, Raster)>> {
-        let bytes = kept.first().map_or(1, |(_, raster)| raster.bytes());
-        let most = (KEPT_BYTES / bytes.max(1)) as usize;
-        let others = (0..self.plan.pictures.len()).filter(|k| kept.iter().all(|(other, _)| other != k));
-        let next: Vec<usize> = others.take(most).collect();
-        let read = |&k: &usize| searching.load(Ordering::Relaxed).then(|| self.read_like(first, k));
-        next.par_iter().with_max_len(1).filter_map(read).collect()
-    }
-
-    /// Reads a picture that must be of the first one's size.
-    fn read_like(&self, first: &First<'_>, k: usize) -> Result<(usize, Raster)> {
-        let planned = &self.plan.pictures[k];
-        let raster = self.read(planned)?;
-        check_size(first, &planned.path, &raster)?;
-        Ok((k, raster))
-    }
-
-    /// The texels of all pictures: of those kept, and of all others, each dropped as soon as it is resampled.
-    fn resample(
-        &self,
-        first: &First<'_>,
-        kept: Vec<(usize, Raster)>,
-        footprints: &Footprints,
-    ) -> Result<Stack> {
-        let mut texels: Vec<Option<Vec<f16>>> = vec![None; self.plan.pictures.len()];
-        let from_kept: Vec<(usize, Vec<f16>)> =
-            kept.into_par_iter().map(|(k, raster)| (k, self.texels(footprints, raster))).collect();
-        for (k, resampled) in from_kept {
-            texels[k] = Some(resampled);
-        }
-        // One at a time, or a thread that is done early waits for several of another's.
-        texels.par_iter_mut().with_max_len(1).zip(&self.plan.pictures).try_for_each(
-            |(texels, planned)| {
-                if texels.is_none() {
-                    let raster = self.read(planned)?;
-                    check_size(first, &planned.path, &raster)?;
-                    *texels = Some(self.texels(footprints, raster));
-                }
-                Ok(())
-            },
-        )?;
-        Ok(Stack { pictures: texels.into_iter().flatten().collect() })
-    }
-}
-
-fn check_size(first: &First<'_>, path: &Path, raster: &Raster) -> Result<()> {
-    if [raster.width(), raster.height()] == first.size {
-        return Ok(());
-    }
-    let name = first.path.file_name().unwrap_or(first.path.as_os_str()).to_string_lossy();
-    Err(Error::invalid(format!(
-        "{} x {} pixels, but {name} has {} x {}; all pictures must have one size",
-        raster.width(),
-        raster.height(),
-        first.width(),
-        first.height()
-    ))
-    .in_file(path))
-}
-
-/// The 8-bit sRGB value of each half float.
-static SRGB8_FROM_HALF: LazyLock<Vec<u8>> =
-    LazyLock::new(|| (0..=u16::MAX).map(|bits| srgb8_from_linear(f16::from_bits(bits).to_f32())).collect());
-
-/// From the texels of all pictures to slices.
-struct Slicing<'a> {
-    size: TableSize,
-    /// All directions of a turn, R times as many as slices.
-    directions: Vec<Direction>,
-    symmetry: Symmetry,
-    azimuth: Azimuth,
-    one_look: bool,
-    footprints: &'a Footprints,
-    spline: &'a Spline,
-    /// Through the mean of each picture and the one half a turn on, where all directions come in such pairs: half
-    /// the work, and the same curve.
-    half_turns: Option<Spline>,
-    progress: &'a Progress<'a>,
-}
-
-/// Some texels' colours, slice by slice.
-struct Block {
-    /// `[slice][texel]`, red, green and blue.
-    colours: Vec<[f16; 3]>,
-    /// The share of the pictures that showed the texel.
-    shown: Vec<f32>,
-}
-
-impl Slicing<'_> {
-    /// The table, and the share of its disc that was measured.
-    fn table(&self, stack: &Stack, format: TexelFormat) -> Result<(Texels, f64)> {
-        let all: Vec<usize> = (0..self.footprints.texels.len()).collect();
-        let done = AtomicUsize::new(0);
-        let total = all.len().div_ceil(BLOCK);
-        let blocks: Vec<Block> = all
-            .par_chunks(BLOCK)
-            .map(|chunk| {
-                let block = self.block(stack, chunk);
-                self.progress.step("resampling the turn", done.fetch_add(1, Ordering::Relaxed) + 1, total)?;
-                Ok(block)
-            })
-            .collect::<Result<_>>()?;
-        let shown: Vec<f32> = blocks.iter().flat_map(|block| block.shown.iter().copied()).collect();
-        // A texel that half of the pictures hide is filled like the rim.
-        let measured: Vec<bool> = shown.iter().map(|&shown| shown >= 0.5).collect();
-        let fill = RimFill::new(self.size.side(), &self.footprints.texels, &measured)?;
-        let coverage =
-            measured.iter().filter(|&&measured| measured).count() as f64 / disc_texels(self.size) as f64;
-        let texels = match format {
-            TexelFormat::Srgb8 => {
-                let encode = &*SRGB8_FROM_HALF;
-                let value = |half: f16| encode.get(usize::from(half.to_bits())).copied().unwrap_or(0);
-                Texels::Srgb8(self.slices(&blocks, &shown, &fill, [0; 4], |[r, g, b], alpha| {
-                    [value(r), value(g), value(b), (alpha * 255.0 + 0.5) as u8]
-                }))
-            }
-            TexelFormat::Half => {
-                Texels::Half(self.slices(&blocks, &shown, &fill, [f16::ZERO; 4], |[r, g, b], alpha| {
-                    [r, g, b, f16::from_f32(alpha)]
-                }))
-            }
-        };
-        Ok((texels, coverage))
-    }
-
-    fn block(&self, stack: &Stack, chunk: &[usize]) -> Block {
-        let lanes = 3 * chunk.len();
-        let (mut values, shown) = stack.gather(chunk);
-        let spline = match &self.half_turns {
-            Some(half_turns) => {
-                fold(&mut values);
-                half_turns
-            }
-            None => self.spline,
-        };
-        let curves = spline.curves(lanes, values);
-        let slices = self.size.slices() as usize;
-        let copies = if self.half_turns.is_some() { 2 } else { 1 };
-        let share = copies as f32 / self.symmetry.order() as f32;
-        let mut colours = vec![[f16::ZERO; 3]; chunk.len() * slices];
-        let mut sums = vec![[0.0f32; 3]; slices];
-        let mut halves = vec![[f16::ZERO; 3]; slices];
-        for (k, &texel) in chunk.iter().enumerate() {
-            sums.fill([0.0; 3]);
-            self.each_direction(&self.footprints.texels[texel], |slice, turn| {
-                let colour = curves.colour(&spline.position(turn), 3 * k);
-                for (sum, value) in sums[slice].iter_mut().zip(colour) {
-                    *sum += value * share;
-                }
-            });
-            if self.one_look {
-                let mean =
-                    std::array::from_fn(|c| sums.iter().map(|sum| sum[c]).sum::<f32>() / slices as f32);
-                sums.fill(mean);
-            }
-            for value in sums.as_flattened_mut() {
-                *value = value.min(MOST_LIGHT);
-            }
-            halves.as_flattened_mut().convert_from_f32_slice(sums.as_flattened());
-            for (colour, half) in colours[k..].iter_mut().step_by(chunk.len()).zip(&halves) {
-                *colour = *half;
-            }
-        }
-        Block { colours, shown }
-    }
-
-    /// Calls `read` with each slice and each of the turns at which the curves show it: R of them, or, of half turns, R/2
-    /// at twice the turn.
-    fn each_direction(&self, texel: &Texel, mut read: impl FnMut(usize, f64)) {
-        let slices = self.size.slices() as usize;
-        let all = self.directions.len();
-        // Half a turn of the tangent is half a turn of the ball, at every normal.
-        let (reckoned, copies) = if all.is_multiple_of(2) { (all / 2, 2) } else { (all, 1) };
-        for (k, direction) in self.directions[..reckoned].iter().enumerate() {
-            let turn = reading_turn(texel, self.azimuth, direction);
-            if self.half_turns.is_some() {
-                read(k % slices, 2.0 * turn);
-                continue;
-            }
-            for copy in 0..copies {
-                read((k + copy * reckoned) % slices, turn + std::f64::consts::PI * copy as f64);
-            }
-        }
-    }
-
-    /// The slices one after the other: measured texels, and those filled in.
-    fn slices<T: Copy + Send + Sync>(
-        &self,
-        blocks: &[Block],
-        shown: &[f32],
-        fill: &RimFill,
-        empty: T,
-        encode: impl Fn([f16; 3], f32) -> T + Sync,
-    ) -> Vec<T> {
-        let mut texels = vec![empty; self.size.texels()];
-        texels.par_chunks_mut(self.size.slice_texels()).enumerate().for_each(|(slice, texels)| {
-            let mut halves: Vec<[f16; 3]> = Vec::with_capacity(self.footprints.texels.len());
-            for block in blocks {
-                let count = block.shown.len();
-                halves.extend_from_slice(&block.colours[slice * count..][..count]);
-            }
-            for ((texel, half), &shown) in self.footprints.texels.iter().zip(&halves).zip(shown) {
-                let at = (texel.j * self.size.side() + texel.i) as usize;
-                // Full only where every picture showed it.
-                texels[at] = encode(*half, if shown >= 1.0 { 1.0 } else { 0.5 + shown * 0.49 });
-            }
-            let mut colours = vec![[0.0f32; 3]; halves.len()];
-            halves.as_flattened().convert_to_f32_slice(colours.as_flattened_mut());
-            fill.each(|at, sources| {
-                let mut sum = [0.0; 3];
-                for &(texel, weight) in sources {
-                    for (sum, value) in sum.iter_mut().zip(colours[texel as usize]) {
-                        *sum += weight * value;
-                    }
-                }
-                texels[at] = encode(sum.map(f16::from_f32), RimFill::ALPHA);
-            });
-        });
-        texels
-    }
-}
-
-/// Leaves the mean of the first half of the pictures' values and the second.
-fn fold(values: &mut Vec<f32>) {
-    let half = values.len() / 2;
-    let (first, second) = values.split_at_mut(half);
-    for (value, other) in first.iter_mut().zip(second) {
-        *value = (*value + *other) / 2.0;
-    }
-    values.truncate(half);
-}
-
-/// Texels whose centre lies on the disc.
-fn disc_texels(size: TableSize) -> usize {
-    let on_disc = |k: u32| size.normal_xy(k % size.side(), k / size.side()).length_squared() < 1.0;
-    (0..size.side() * size.side()).filter(|&k| on_disc(k)).count()
 }
 
 #[cfg(test)]

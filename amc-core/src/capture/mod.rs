@@ -9,9 +9,11 @@ mod build;
 mod cone;
 mod fill;
 mod pictures;
+mod reading;
 mod report;
 mod resample;
 mod session;
+mod slices;
 mod symmetry;
 mod turn;
 

@@ -5,13 +5,11 @@
 //! as exact as 2 (on the paper's projected one only 2 is), in brightness as it is perceived (a square root), so
 //! that one highlight does not outweigh everything else. The noise's own share is measured and taken out of both.
 
-use std::f64::consts::TAU;
-
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::resample::Texel;
-use super::turn::{Direction, Spline, Stack, reading_turn};
+use super::turn::{Directions, Knots, Spline, Stack};
 use crate::amc::Symmetry;
 use crate::view_space::Azimuth;
 
@@ -139,18 +137,22 @@ impl Sums {
         let steps = if spline.len() <= 64 { 48 } else { 96 };
         let (values, shown) = stack.gather(chunk);
         let curves = spline.curves(3 * chunk.len(), values);
-        let directions: Vec<Direction> =
-            (0..steps).map(|s| Direction::new(TAU * s as f64 / steps as f64)).collect();
+        let directions = Directions::new(steps, steps);
+        let (mut turns, mut positions, mut knots) = (Vec::new(), Vec::new(), Knots::default());
         let mut sums = Self::default();
-        let mut look = vec![[0.0f32; 3]; steps];
+        let mut look = Vec::new();
         for (k, &texel) in chunk.iter().enumerate() {
             if shown[k] < 1.0 {
                 continue;
             }
-            for (look, direction) in look.iter_mut().zip(&directions) {
-                let turn = reading_turn(&texels[texel], Azimuth::Transported, direction);
-                *look = curves.colour(&spline.position(turn), 3 * k).map(perceived);
-            }
+            directions.turns(&texels[texel], Azimuth::Transported, &mut turns);
+            spline.positions(&turns, &mut positions);
+            curves.knots(3 * k, &mut knots);
+            look.clear();
+            look.extend(positions.iter().map(|position| {
+                let [r, g, b, _] = knots.colour(position).to_array();
+                [r, g, b].map(perceived)
+            }));
             sums.add(&look);
         }
         sums

@@ -1,19 +1,12 @@
-//! Along the turn: what a texel shows at any angle of the ball, from the angles that were measured.
-//!
 //! Between the pictures a texel's colour is a periodic cubic spline through them, which even steps do not ask for:
 //! nearly what the sampling theorem allows, without ringing as far as a sinc does.
 
 use std::f64::consts::TAU;
 
-use glam::DVec3;
-use half::f16;
-use half::slice::HalfFloatSliceExt as _;
-
-use super::resample::Texel;
-use crate::view_space::{Azimuth, transported_azimuth};
+use wide::f32x4;
 
 /// The periodic cubic spline through values at some turns.
-pub(super) struct Spline {
+pub(in crate::capture) struct Spline {
     /// The first turn, radians.
     start: f64,
     /// The turns from the first on, radians in [0, 2 pi), rising.
@@ -32,7 +25,7 @@ pub(super) struct Spline {
 
 /// Where a turn lies: two neighbours and the weights of their values and second derivatives.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Position {
+pub(in crate::capture) struct Position {
     first: usize,
     second: usize,
     value: [f32; 2],
@@ -40,7 +33,7 @@ pub(super) struct Position {
 }
 
 /// Some texels' colours over the turn: `lanes` numbers for each picture, and their second derivatives.
-pub(super) struct Curves {
+pub(in crate::capture) struct Curves {
     lanes: usize,
     values: Vec<f32>,
     bends: Vec<f32>,
@@ -48,7 +41,7 @@ pub(super) struct Curves {
 
 impl Spline {
     /// Through `turns`: at least three, radians in [0, 2 pi), strictly rising.
-    pub(super) fn new(mut turns: Vec<f64>) -> Self {
+    pub(in crate::capture) fn new(mut turns: Vec<f64>) -> Self {
         let count = turns.len();
         let start = turns.first().copied().unwrap_or(0.0);
         for turn in &mut turns {
@@ -67,18 +60,18 @@ impl Spline {
     }
 
     /// How many pictures.
-    pub(super) fn len(&self) -> usize {
+    pub(in crate::capture) fn len(&self) -> usize {
         self.turns.len()
     }
 
     /// Whether the turns are even, to a hundredth of a step.
-    pub(super) fn is_even(&self) -> bool {
+    pub(in crate::capture) fn is_even(&self) -> bool {
         all_within(&self.gaps, 0.01)
     }
 
     /// The spline, over twice the turn, through the means of pictures half a turn apart; none where the pictures do not
     /// come in such pairs, at even steps.
-    pub(super) fn of_half_turns(&self) -> Option<Self> {
+    pub(in crate::capture) fn of_half_turns(&self) -> Option<Self> {
         let count = self.len();
         // A spline needs three.
         (self.even_rate.is_some() && count.is_multiple_of(2) && count >= 6).then(|| {
@@ -86,19 +79,36 @@ impl Spline {
         })
     }
 
-    /// Where a turn in radians lies.
+    /// Where turns in radians lie.
+    pub(in crate::capture) fn positions(&self, turns: &[f32], positions: &mut Vec<Position>) {
+        positions.clear();
+        let turns = turns.iter().map(|&turn| f64::from(turn));
+        match self.even_rate {
+            Some(rate) => {
+                positions.extend(turns.map(|turn| self.even_position(self.since_first(turn) * rate)))
+            }
+            None => positions.extend(turns.map(|turn| self.position(turn))),
+        }
+    }
+
+    /// The turn in [0, 2 pi) since the first one.
     #[inline]
-    pub(super) fn position(&self, turn: f64) -> Position {
-        let mut turn = turn - self.start;
+    fn since_first(&self, turn: f64) -> f64 {
+        let turn = turn - self.start;
         // Nearly always within one turn of the range: no division.
-        if turn < 0.0 {
-            turn += TAU;
+        let near = if turn < 0.0 {
+            turn + TAU
         } else if turn >= TAU {
-            turn -= TAU;
-        }
-        if !(0.0..TAU).contains(&turn) {
-            turn -= TAU * (turn / TAU).floor();
-        }
+            turn - TAU
+        } else {
+            turn
+        };
+        if (0.0..TAU).contains(&near) { near } else { turn.rem_euclid(TAU) }
+    }
+
+    /// Where a turn in radians lies.
+    fn position(&self, turn: f64) -> Position {
+        let turn = self.since_first(turn);
         if let Some(rate) = self.even_rate {
             return self.even_position(turn * rate);
         }
@@ -130,7 +140,7 @@ impl Spline {
 
     /// The mean, over all turns, of the squared weights with which measured values enter an interpolated one: what
     /// is left of independent noise.
-    pub(super) fn noise_gain(&self) -> f64 {
+    pub(in crate::capture) fn noise_gain(&self) -> f64 {
         let count = self.len();
         let mut values = vec![0.0; count * count];
         for k in 0..count {
@@ -148,7 +158,7 @@ impl Spline {
     }
 
     /// The curves through `values`: `lanes` numbers for each picture, picture after picture.
-    pub(super) fn curves(&self, lanes: usize, values: Vec<f32>) -> Curves {
+    pub(in crate::capture) fn curves(&self, lanes: usize, values: Vec<f32>) -> Curves {
         let bends = self.system.solve(&self.gaps, lanes, &values);
         Curves { lanes, values, bends }
     }
@@ -162,7 +172,7 @@ fn all_within(gaps: &[f64], share: f64) -> bool {
 }
 
 impl Curves {
-    pub(super) fn at(&self, position: &Position, lane: usize) -> f32 {
+    pub(in crate::capture) fn at(&self, position: &Position, lane: usize) -> f32 {
         let (a, b) = (position.first * self.lanes + lane, position.second * self.lanes + lane);
         position.value[0] * self.values[a]
             + position.value[1] * self.values[b]
@@ -170,17 +180,26 @@ impl Curves {
             + position.bend[1] * self.bends[b]
     }
 
-    /// The colour of the texel whose red is in `lane`; light is never negative.
+    /// The curve of the texel whose red is in `lane`.
+    pub(in crate::capture) fn knots(&self, lane: usize, knots: &mut Knots) {
+        let colour = |row: &[f32]| f32x4::new([row[lane], row[lane + 1], row[lane + 2], 0.0]);
+        let rows = self.values.chunks_exact(self.lanes).zip(self.bends.chunks_exact(self.lanes));
+        knots.0.clear();
+        knots.0.extend(rows.map(|(values, bends)| [colour(values), colour(bends)]));
+    }
+}
+
+/// One texel's curve: for each picture red, green and blue, and their second derivatives, side by side in memory.
+#[derive(Default)]
+pub(in crate::capture) struct Knots(Vec<[f32x4; 2]>);
+
+impl Knots {
+    /// Red, green and blue; light is never negative.
     #[inline]
-    pub(super) fn colour(&self, position: &Position, lane: usize) -> [f32; 3] {
-        let row = |of: &[f32], picture: usize| -> [f32; 3] {
-            let start = picture * self.lanes + lane;
-            [of[start], of[start + 1], of[start + 2]]
-        };
-        let (v0, v1) = (row(&self.values, position.first), row(&self.values, position.second));
-        let (b0, b1) = (row(&self.bends, position.first), row(&self.bends, position.second));
-        let (v, b) = (position.value, position.bend);
-        std::array::from_fn(|c| (v[0] * v0[c] + v[1] * v1[c] + b[0] * b0[c] + b[1] * b1[c]).max(0.0))
+    pub(in crate::capture) fn colour(&self, position: &Position) -> f32x4 {
+        let ([v0, b0], [v1, b1]) = (self.0[position.first], self.0[position.second]);
+        let ([before, along], [bend_before, bend_along]) = (position.value, position.bend);
+        (v0 * before + v1 * along + b0 * bend_before + b1 * bend_along).fast_max(f32x4::ZERO)
     }
 }
 
@@ -275,107 +294,6 @@ impl System {
     }
 }
 
-/// The pictures' texels, kept as half floats: picture after picture, in order of turn.
-pub(super) struct Stack {
-    pub(super) pictures: Vec<Vec<f16>>,
-}
-
-impl Stack {
-    /// The values of `texels` (indices into the footprints' list) over the turn, as [`Spline::curves`] takes them;
-    /// gaps in the coverage are bridged. Also, for each texel, the share of pictures that show it.
-    pub(super) fn gather(&self, texels: &[usize]) -> (Vec<f32>, Vec<f32>) {
-        let lanes = 3 * texels.len();
-        let mut halves = Vec::with_capacity(lanes * self.pictures.len());
-        match texels {
-            // Texels in a row are copied at once.
-            [first, .., last] if texels.windows(2).all(|pair| pair[0] + 1 == pair[1]) => {
-                for picture in &self.pictures {
-                    halves.extend_from_slice(&picture[3 * first..3 * last + 3]);
-                }
-            }
-            _ => {
-                for picture in &self.pictures {
-                    for &texel in texels {
-                        halves.extend_from_slice(&picture[3 * texel..3 * texel + 3]);
-                    }
-                }
-            }
-        }
-        let mut values = vec![0.0; halves.len()];
-        halves.convert_to_f32_slice(&mut values);
-        let mut shown = vec![1.0; texels.len()];
-        if values.iter().any(|value| value.is_nan()) {
-            for (k, shown) in shown.iter_mut().enumerate() {
-                *shown = bridge(&mut values, lanes, 3 * k);
-            }
-        }
-        (values, shown)
-    }
-}
-
-/// Replaces a texel's missing colours by those between its neighbours in turn; gives the share that was there.
-fn bridge(values: &mut [f32], lanes: usize, lane: usize) -> f32 {
-    let count = values.len() / lanes;
-    let there: Vec<usize> = (0..count).filter(|k| !values[k * lanes + lane].is_nan()).collect();
-    let Some(&first) = there.first() else {
-        for row in values.chunks_exact_mut(lanes) {
-            row[lane..lane + 3].fill(0.0);
-        }
-        return 0.0;
-    };
-    let around = there.iter().skip(1).copied().chain([first + count]);
-    for (&from, to) in there.iter().zip(around) {
-        for k in from + 1..to {
-            let along = (k - from) as f32 / (to - from) as f32;
-            for c in lane..lane + 3 {
-                let (a, b) = (values[from * lanes + c], values[(to % count) * lanes + c]);
-                values[(k % count) * lanes + c] = a + (b - a) * along;
-            }
-        }
-    }
-    there.len() as f32 / count as f32
-}
-
-/// A direction in the table: its azimuth, radians, and that one's cosine and sine.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Direction {
-    phi: f32,
-    cos: f32,
-    sin: f32,
-}
-
-impl Direction {
-    pub(super) fn new(phi: f64) -> Self {
-        Self { phi: phi as f32, cos: phi.cos() as f32, sin: phi.sin() as f32 }
-    }
-}
-
-/// The turn, radians, at which the pictures show the texel's tangent of this azimuth.
-///
-/// In the pictures the tangent is constant in the projection at the true normal m; the turn that takes m to the
-/// table's n leaves the transported azimuth as it is.
-#[inline]
-pub(super) fn reading_turn(texel: &Texel, azimuth: Azimuth, direction: &Direction) -> f64 {
-    match azimuth {
-        Azimuth::Transported => projected_at(texel.m, direction.cos, direction.sin),
-        // Orthographic: the picture's own azimuth.
-        Azimuth::Projected if texel.n == texel.m => f64::from(direction.phi),
-        Azimuth::Projected => {
-            let n = texel.n.as_vec3();
-            let transported = transported_azimuth(n, Azimuth::Projected.tangent(n, direction.phi));
-            projected_at(texel.m, transported.cos(), transported.sin())
-        }
-    }
-}
-
-/// The projected azimuth, at the normal m, of the tangent whose transported azimuth has this cosine and sine.
-#[inline]
-fn projected_at(m: DVec3, cos: f32, sin: f32) -> f64 {
-    let m = m.as_vec3();
-    let d = (m.x * cos + m.y * sin) / (1.0 + m.z);
-    f64::from((sin - m.y * d).atan2(cos - m.x * d))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -417,24 +335,20 @@ mod tests {
     }
 
     #[test]
-    fn missing_pictures_are_bridged_around_the_turn() {
-        let mut values =
-            vec![f32::NAN, f32::NAN, f32::NAN, 4.0, 4.0, 4.0, 1.0, 1.0, 1.0, f32::NAN, f32::NAN, f32::NAN];
-        assert_eq!(bridge(&mut values, 3, 0), 0.5);
-        assert_eq!(values, [3.0, 3.0, 3.0, 4.0, 4.0, 4.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0]);
-    }
-
-    #[test]
-    fn the_turn_read_shows_the_tangent_asked_for() {
-        for k in 0..50 {
-            let n = DVec3::new(0.1 * f64::from(k % 7), 0.08 * f64::from(k % 9) - 0.3, 1.0).normalize();
-            let texel = Texel { i: 0, j: 0, n, m: n };
-            let phi = f64::from(k) * 0.37;
-            let turn = reading_turn(&texel, Azimuth::Transported, &Direction::new(phi));
-            // The tangent whose projection has the azimuth of the turn.
-            let t = Azimuth::Projected.tangent(n.as_vec3(), turn as f32);
-            let back = f64::from(transported_azimuth(n.as_vec3(), t));
-            assert!((back - phi).sin().abs() < 1e-4 && (back - phi).cos() > 0.0, "{back} {phi}");
+    fn a_texels_knots_give_its_curve() {
+        let values: Vec<f32> = (0..16 * 6).map(|k| ((k * 37) % 11) as f32 / 11.0).collect();
+        let spline = Spline::new(uneven(16));
+        let curves = spline.curves(6, values);
+        let (mut knots, mut positions) = (Knots::default(), Vec::new());
+        curves.knots(3, &mut knots);
+        let turns: Vec<f32> = (0..40).map(|k| k as f32 * 0.37 - 5.0).collect();
+        spline.positions(&turns, &mut positions);
+        for (position, &turn) in positions.iter().zip(&turns) {
+            let colour = knots.colour(position).to_array();
+            for (c, value) in colour[..3].iter().enumerate() {
+                let expected = curves.at(&spline.position(f64::from(turn)), 3 + c).max(0.0);
+                assert!((value - expected).abs() < 1e-5, "{turn}");
+            }
         }
     }
 }
