@@ -22,6 +22,9 @@ const RIM: f64 = 1.4;
 /// The share of a texel's cell that must be seen for the texel to count as measured.
 const LEAST_SEEN: f64 = 0.5;
 
+/// Texels whose sums are rounded at once.
+const AT_ONCE: usize = 256;
+
 /// The largest half float.
 pub(super) const MOST_LIGHT: f32 = 65504.0;
 
@@ -95,47 +98,66 @@ impl Footprints {
         all
     }
 
-    /// The texels' red, green and blue in linear light, one after the other; NaN where the picture's coverage leaves
-    /// too little.
-    pub(super) fn resample(&self, picture: &Raster) -> Vec<f16> {
-        let eight = &*LINEAR_FROM_SRGB8;
-        let colours = match picture.samples() {
-            Samples::U8(samples) => self.by_channels(
-                picture.channels(),
-                samples,
-                |v| eight[usize::from(v)],
-                |a| f32::from(a) / 255.0,
-            ),
-            Samples::U16(samples) => {
-                let sixteen = &**LINEAR_FROM_SRGB16;
-                let linear = |v: u16| sixteen.get(usize::from(v)).copied().unwrap_or(1.0);
-                self.by_channels(picture.channels(), samples, linear, |a| f32::from(a) / 65535.0)
+    /// The texels' red, green and blue in linear light, one after the other, of each picture; NaN where a picture's
+    /// coverage leaves too little.
+    pub(super) fn resample(&self, pictures: &[Raster]) -> Vec<Vec<f16>> {
+        let mut texels = Vec::with_capacity(pictures.len());
+        for pair in pictures.chunks(2) {
+            match pair {
+                // The footprints are larger than the caches nearest to a core: two pictures share the way to them.
+                [a, b] if a.channels() == b.channels() => match (a.samples(), b.samples()) {
+                    (Samples::U8(x), Samples::U8(y)) => texels.extend(self.of_bytes(a.channels(), [x, y])),
+                    (Samples::U16(x), Samples::U16(y)) => texels.extend(self.of_words(a.channels(), [x, y])),
+                    (Samples::F32(x), Samples::F32(y)) => texels.extend(self.of_floats(a.channels(), [x, y])),
+                    _ => texels.extend(pair.iter().flat_map(|picture| self.of_one(picture))),
+                },
+                _ => texels.extend(pair.iter().flat_map(|picture| self.of_one(picture))),
             }
-            Samples::F32(samples) => self.by_channels(picture.channels(), samples, |v| v, |a| a),
-        };
-        let mut half = vec![f16::ZERO; colours.len()];
-        half.convert_from_f32_slice(&colours);
-        half
+        }
+        texels
     }
 
-    fn by_channels<T: Copy>(
+    fn of_one(&self, picture: &Raster) -> [Vec<f16>; 1] {
+        match picture.samples() {
+            Samples::U8(samples) => self.of_bytes(picture.channels(), [samples]),
+            Samples::U16(samples) => self.of_words(picture.channels(), [samples]),
+            Samples::F32(samples) => self.of_floats(picture.channels(), [samples]),
+        }
+    }
+
+    fn of_bytes<const P: usize>(&self, channels: u32, pictures: [&Vec<u8>; P]) -> [Vec<f16>; P] {
+        let eight = &*LINEAR_FROM_SRGB8;
+        self.by_channels(channels, pictures, |v| eight[usize::from(v)], |a| f32::from(a) / 255.0)
+    }
+
+    fn of_words<const P: usize>(&self, channels: u32, pictures: [&Vec<u16>; P]) -> [Vec<f16>; P] {
+        let sixteen = &**LINEAR_FROM_SRGB16;
+        let linear = |v: u16| sixteen.get(usize::from(v)).copied().unwrap_or(1.0);
+        self.by_channels(channels, pictures, linear, |a| f32::from(a) / 65535.0)
+    }
+
+    fn of_floats<const P: usize>(&self, channels: u32, pictures: [&Vec<f32>; P]) -> [Vec<f16>; P] {
+        self.by_channels(channels, pictures, |v| v, |a| a)
+    }
+
+    fn by_channels<T: Copy, const P: usize>(
         &self,
         channels: u32,
-        samples: &[T],
+        pictures: [&Vec<T>; P],
         linear: impl Fn(T) -> f32,
         alpha: impl Fn(T) -> f32,
-    ) -> Vec<f32> {
+    ) -> [Vec<f16>; P] {
         match channels {
-            1 => self.gather::<T, 1>(samples, |&[y]| {
+            1 => self.gather::<T, 1, P>(pictures, |&[y]| {
                 let y = linear(y);
                 [y, y, y, 1.0]
             }),
-            2 => self.gather::<T, 2>(samples, |&[y, a]| {
+            2 => self.gather::<T, 2, P>(pictures, |&[y, a]| {
                 let (y, a) = (linear(y), alpha(a));
                 [y * a, y * a, y * a, a]
             }),
-            3 => self.gather::<T, 3>(samples, |&[r, g, b]| [linear(r), linear(g), linear(b), 1.0]),
-            _ => self.gather::<T, 4>(samples, |&[r, g, b, a]| {
+            3 => self.gather::<T, 3, P>(pictures, |&[r, g, b]| [linear(r), linear(g), linear(b), 1.0]),
+            _ => self.gather::<T, 4, P>(pictures, |&[r, g, b, a]| {
                 let a = alpha(a);
                 [linear(r) * a, linear(g) * a, linear(b) * a, a]
             }),
@@ -143,44 +165,70 @@ impl Footprints {
     }
 
     /// Weighted sums of `pixel`, which gives premultiplied colour and coverage.
-    fn gather<T: Copy, const C: usize>(
+    fn gather<T: Copy, const C: usize, const P: usize>(
         &self,
-        samples: &[T],
+        pictures: [&Vec<T>; P],
         pixel: impl Fn(&[T; C]) -> [f32; 4],
-    ) -> Vec<f32> {
-        let (pixels, _) = samples.as_chunks::<C>();
-        let mut colours = Vec::with_capacity(3 * self.texels.len());
+    ) -> [Vec<f16>; P] {
+        let pictures = pictures.map(|samples| samples.as_chunks::<C>().0);
+        let mut texels = [(); P].map(|()| vec![f16::ZERO; 3 * self.texels.len()]);
+        let mut colours = [(); P].map(|()| Vec::with_capacity(3 * AT_ONCE));
         let mut start = 0;
-        for &end in &self.ends {
-            let [mut r, mut g, mut b, mut a] = [0.0f32; 4];
-            for run in &self.runs[start as usize..end as usize] {
-                let part = &pixels[run.pixel as usize..][..run.length as usize];
-                let weights = &self.weights[run.weight as usize..][..run.length as usize];
-                for (value, &weight) in part.iter().zip(weights) {
-                    let value = pixel(value);
-                    r += weight * value[0];
-                    g += weight * value[1];
-                    b += weight * value[2];
+        for (chunk, ends) in self.ends.chunks(AT_ONCE).enumerate() {
+            colours.iter_mut().for_each(Vec::clear);
+            for &end in ends {
+                let runs = &self.runs[start as usize..end as usize];
+                for (colours, mean) in colours.iter_mut().zip(self.means(runs, pictures, &pixel)) {
+                    colours.extend(mean);
+                }
+                start = end;
+            }
+            for (texels, colours) in texels.iter_mut().zip(&mut colours) {
+                // Apart from the sums, where it would keep them from the registers.
+                for value in colours.iter_mut() {
+                    *value = value.clamp(0.0, MOST_LIGHT);
+                }
+                texels[3 * AT_ONCE * chunk..][..colours.len()].convert_from_f32_slice(colours);
+            }
+        }
+        texels
+    }
+
+    /// The mean colour of some pixels in each picture; NaN where too little of them is covered.
+    #[inline]
+    fn means<T: Copy, const C: usize, const P: usize>(
+        &self,
+        runs: &[Run],
+        pictures: [&[[T; C]]; P],
+        pixel: impl Fn(&[T; C]) -> [f32; 4],
+    ) -> [[f32; 3]; P] {
+        let mut sums = [[0.0f32; 4]; P];
+        for run in runs {
+            let length = run.length as usize;
+            let parts = pictures.map(|pixels| &pixels[run.pixel as usize..][..length]);
+            let weights = &self.weights[run.weight as usize..][..length];
+            for (k, &weight) in weights.iter().enumerate() {
+                for (sum, part) in sums.iter_mut().zip(parts) {
+                    let value = pixel(&part[k]);
+                    sum[0] += weight * value[0];
+                    sum[1] += weight * value[1];
+                    sum[2] += weight * value[2];
                     if C.is_multiple_of(2) {
-                        a += weight * value[3];
+                        sum[3] += weight * value[3];
                     }
                 }
             }
-            start = end;
+        }
+        sums.map(|[r, g, b, a]| {
             if !C.is_multiple_of(2) {
                 // The weights sum to 1.
-                colours.extend([r, g, b]);
+                [r, g, b]
             } else if f64::from(a) < LEAST_SEEN {
-                colours.extend([f32::NAN; 3]);
+                [f32::NAN; 3]
             } else {
-                colours.extend([r / a, g / a, b / a]);
+                [r / a, g / a, b / a]
             }
-        }
-        // Apart from the sums, where it would keep them from the registers.
-        for value in &mut colours {
-            *value = value.clamp(0.0, MOST_LIGHT);
-        }
-        colours
+        })
     }
 }
 
@@ -278,14 +326,20 @@ impl View<'_> {
         });
         let left = spans.iter().map(|span| span.0).fold(f64::MAX, f64::min);
         let right = spans.iter().map(|span| span.1).fold(f64::MIN, f64::max);
+        // Pixels between these lie in all slabs.
+        let inner_left = spans.iter().map(|span| span.0).fold(f64::MIN, f64::max);
+        let inner_right = spans.iter().map(|span| span.1).fold(f64::MAX, f64::min);
         // Less than this share of a cell is rounding.
         let least = 1e-4;
+        let per_slab = (high - low) / (SLABS as f64 * area);
         let mut covered = 0.0;
         let mut open: Option<Run> = None;
         let mut x = left.floor();
         while x < right {
             let overlap = |&(from, to): &(f64, f64)| (to.min(x + 1.0) - from.max(x)).max(0.0);
-            let share = spans.iter().map(overlap).sum::<f64>() * (high - low) / (SLABS as f64 * area);
+            let inner = inner_left <= x && x + 1.0 <= inner_right;
+            let slabs = if inner { SLABS as f64 } else { spans.iter().map(overlap).sum() };
+            let share = slabs * per_slab;
             let counts =
                 share > least && (whole || self.sight.depth(DVec2::new(x + 0.5, y + 0.5)) >= self.rim);
             if counts {
@@ -366,7 +420,7 @@ mod tests {
     #[test]
     fn pixels_on_the_tables_grid_come_through_untouched() {
         let footprints = Footprints::new(&ball(32.0), Frame::Half, 32, 32, 32, false);
-        let texels = footprints.resample(&picture(32, |x, y| (x * 40 + y) as f32));
+        let texels = footprints.resample(&[picture(32, |x, y| (x * 40 + y) as f32)]).remove(0);
         assert!(footprints.texels.len() > 600);
         for (k, texel) in footprints.texels.iter().enumerate() {
             let expected = (texel.i * 40 + 31 - texel.j) as f32;
@@ -379,8 +433,9 @@ mod tests {
         for (side, pixels) in [(16, 64), (16, 50), (64, 40), (33, 77)] {
             let footprints =
                 Footprints::new(&ball(f64::from(pixels)), Frame::Half, side, pixels, pixels, true);
-            let texels =
-                footprints.resample(&picture(pixels, |x, y| x as f32 + 0.5 + 3.0 * (y as f32 + 0.5)));
+            let texels = footprints
+                .resample(&[picture(pixels, |x, y| x as f32 + 0.5 + 3.0 * (y as f32 + 0.5))])
+                .remove(0);
             for (k, texel) in footprints.texels.iter().enumerate() {
                 if texel.n.z < 0.5 {
                     continue;

@@ -22,8 +22,8 @@ const LATTICE: u32 = 64;
 /// From here on there are many pictures.
 const MANY: usize = 48;
 
-/// Differences, over texels and pictures, from which the noise is measured: its deviation comes out to half a percent.
-const NOISE_SAMPLES: usize = 20_000;
+/// Differences, over texels and pictures, from which the noise is measured: its deviation comes out to a percent.
+const NOISE_SAMPLES: usize = 10_000;
 
 /// Variation along the turn below this, perceived, is none: half a step of 8 bits.
 const LEAST_VARIATION: f64 = 0.002;
