@@ -25,19 +25,12 @@ impl Fabrics {
     /// The number of the fabric that `named` is: a file or `fabric:NAME`. It is read or baked the first time it is asked
     /// for.
     pub(crate) fn find(&mut self, named: &Path, progress: &Progress<'_>) -> Result<usize> {
-        match named.to_str().and_then(|text| text.strip_prefix(FABRIC_PREFIX)) {
-            Some(name) => self.bundled(reflectance::bundled(name)?, progress),
-            None => self.number(&named.to_string_lossy(), || Amc::read(named)),
-        }
+        self.number(&named.to_string_lossy(), || load_fabric(named, progress))
     }
 
     /// The number of the fabric for whoever asked for none.
     pub(crate) fn default_fabric(&mut self, progress: &Progress<'_>) -> Result<usize> {
-        self.bundled(BUNDLED[0], progress)
-    }
-
-    fn bundled(&mut self, fabric: Bundled, progress: &Progress<'_>) -> Result<usize> {
-        self.number(&format!("{FABRIC_PREFIX}{}", fabric.name), || bundled_fabric(fabric, progress))
+        self.find(Path::new(&format!("{FABRIC_PREFIX}{}", BUNDLED[0].name)), progress)
     }
 
     fn number(&mut self, name: &str, make: impl FnOnce() -> Result<Amc>) -> Result<usize> {
@@ -52,6 +45,14 @@ impl Fabrics {
     /// The tables, in their order.
     pub(crate) fn into_tables(self) -> Vec<Arc<Amc>> {
         self.tables
+    }
+}
+
+/// A fabric by its file, or a bundled one by `fabric:NAME`.
+pub(crate) fn load_fabric(named: &Path, progress: &Progress<'_>) -> Result<Amc> {
+    match named.to_str().and_then(|text| text.strip_prefix(FABRIC_PREFIX)) {
+        Some(name) => bundled_fabric(reflectance::bundled(name)?, progress),
+        None => Amc::read(named),
     }
 }
 

@@ -38,6 +38,7 @@ pub struct App {
     leaving: bool,
     /// Changes are to be thrown away: the window may close.
     discard: bool,
+    context: egui::Context,
 }
 
 impl std::fmt::Debug for App {
@@ -67,6 +68,7 @@ impl App {
             dialog: None,
             leaving: false,
             discard: false,
+            context: creation.egui_ctx.clone(),
         };
         for file in files {
             app.open(&file);
@@ -195,6 +197,7 @@ impl App {
             }
             Request::GoTo(position) => self.document.go_to(position),
             Request::View(view) => self.document.set_view(view),
+            Request::Copy(text) => self.context.copy_text(text),
         }
     }
 

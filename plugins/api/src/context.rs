@@ -32,6 +32,8 @@ pub enum Request {
     GoTo(usize),
     /// Another view.
     View(ViewSettings),
+    /// A text for the clipboard.
+    Copy(String),
 }
 
 impl<'a> Context<'a> {
@@ -64,5 +66,10 @@ impl<'a> Context<'a> {
     /// Looks at the garment in another way.
     pub fn set_view(&mut self, view: ViewSettings) {
         self.requests.push(Request::View(view));
+    }
+
+    /// Puts a text into the clipboard.
+    pub fn copy(&mut self, text: impl Into<String>) {
+        self.requests.push(Request::Copy(text.into()));
     }
 }
