@@ -24,8 +24,7 @@ impl ClothNeeded {
         let project = studio.document.project();
         let mut areas = BTreeMap::new();
         for panel in studio.stage.garment.iter().flat_map(|garment| &garment.panels) {
-            let worn = project.look(&panel.id).fabric.filter(|_| panel.takes_fabric);
-            if let Some(fabric) = project.fabrics.iter().find(|fabric| Some(fabric.id) == worn) {
+            if let Some(fabric) = project.look_of(panel).fabric.and_then(|id| project.fabric(id)) {
                 *areas.entry(fabric.name.clone()).or_default() += panel.area / (1.0 - self.waste);
             }
         }

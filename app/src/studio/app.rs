@@ -325,7 +325,7 @@ impl App {
         let number = |id: &String| garment.panels.iter().position(|panel| panel.id == *id);
         let selected: BTreeSet<usize> = self.selection.panels.iter().filter_map(number).collect();
         let hidden: BTreeSet<usize> =
-            (0..garment.panels.len()).filter(|&k| !project.look(&garment.panels[k].id).visible).collect();
+            (0..garment.panels.len()).filter(|&k| !project.look_of(&garment.panels[k]).visible).collect();
         let input = ViewportInput {
             selected: &selected,
             hovered: self.selection.hovered.as_ref().and_then(number),

@@ -71,16 +71,10 @@ pub(super) fn opened(file: &Path) -> Opened {
 
 /// A file as the document knows it: its content's key is reckoned when the project is saved.
 fn asset(file: &Path) -> Asset {
-    Asset::File { path: std::path::absolute(file).unwrap_or_else(|_| file.to_owned()), content: None }
+    Asset::file(std::path::absolute(file).unwrap_or_else(|_| file.to_owned()))
 }
 
 /// A name for a project that has none yet, after its garment.
 pub(super) fn suggested_name(project: &Project) -> String {
-    let stem = match &project.garment {
-        Asset::Bundled(name) => name.rsplit(':').next().unwrap_or(name).to_owned(),
-        Asset::File { path, .. } => {
-            path.file_stem().map_or_else(|| "project".to_owned(), |stem| stem.to_string_lossy().into_owned())
-        }
-    };
-    format!("{stem}.amcproj")
+    format!("{}.amcproj", project.garment.name())
 }

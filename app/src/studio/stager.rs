@@ -10,7 +10,7 @@ use amc_core::mesh::{Garment, Unit};
 use amc_core::render::{Cloth, Drawing};
 use amc_core::{Progress, Result};
 use glam::Vec2;
-use studio_plugin::document::{Asset, FabricId, PanelLook, Project};
+use studio_plugin::document::{Asset, FabricId, Project};
 use studio_plugin::{Job, Jobs, Notices, Stage};
 
 use crate::scene::{load_fabric, load_garment, vertex_occlusion};
@@ -89,7 +89,7 @@ impl Stager {
             let asset = project.garment.clone();
             self.garment.wanted = Some(asset.clone());
             self.garment.job =
-                Some(jobs.start(format!("Opening {}", name(&asset)), move |progress| Loaded::new(&asset, progress)));
+                Some(jobs.start(format!("Opening {}", asset.name()), move |progress| Loaded::new(&asset, progress)));
         }
         if let Some(result) = self.garment.job.as_ref().and_then(Job::poll) {
             self.garment.job = None;
@@ -189,11 +189,9 @@ fn looks(
     loaded: &BTreeMap<FabricId, Arc<Amc>>,
 ) -> Vec<(Option<FabricId>, Direction)> {
     let look = |panel: &amc_core::mesh::Panel| {
-        let PanelLook { fabric, direction, .. } = project.look(&panel.id);
-        // A body or a button takes a fabric only when somebody gives it one.
-        let wears = panel.takes_fabric || project.panels.contains_key(&panel.id);
-        let fabric = fabric.filter(|id| wears && loaded.contains_key(id));
-        (fabric, direction.unwrap_or_else(|| Direction::along_grain(panel)))
+        let look = project.look_of(panel);
+        let fabric = look.fabric.filter(|id| loaded.contains_key(id));
+        (fabric, look.direction.unwrap_or_else(|| Direction::along_grain(panel)))
     };
     garment.panels.iter().map(look).collect()
 }
@@ -204,12 +202,6 @@ fn path(asset: &Asset) -> PathBuf {
         Asset::Bundled(name) => PathBuf::from(name),
         Asset::File { path, .. } => path.clone(),
     }
-}
-
-/// What people know it by.
-fn name(asset: &Asset) -> String {
-    let path = path(asset);
-    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
 /// The end of a file's name by which it is known, and what it then is.

@@ -31,7 +31,7 @@ impl Plugin for Fabrics {
     fn import(&mut self, file: &Path, studio: &mut Context<'_>) {
         let name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy();
         let name = name.trim_end_matches(".ktx2").trim_end_matches(".amc").to_owned();
-        put_on(studio, Asset::File { path: file.to_owned(), content: None }, &name);
+        put_on(studio, Asset::file(file), &name);
     }
 
     fn show(&mut self, _pane: &str, ui: &mut egui::Ui, studio: &mut Context<'_>) {

@@ -13,7 +13,6 @@ use crate::studio::theme::STEP;
 #[derive(Debug, Default)]
 pub(super) struct Inspector {
     dragged: Option<Gesture>,
-    gestures: u64,
 }
 
 const SWAP: Command = Command {
@@ -109,7 +108,7 @@ fn picked<'a>(garment: &'a Garment, studio: &Context<'_>) -> Vec<&'a Panel> {
 }
 
 fn direction(panel: &Panel, studio: &Context<'_>) -> Direction {
-    let look = studio.document.project().look(&panel.id);
+    let look = studio.document.project().look_of(panel);
     look.direction.unwrap_or_else(|| Direction::along_grain(panel))
 }
 
@@ -140,7 +139,7 @@ fn facts(ui: &mut egui::Ui, panel: &Panel, garment: &Garment) {
 
 fn fabric(ui: &mut egui::Ui, panels: &[&Panel], studio: &mut Context<'_>) {
     let project = studio.document.project();
-    let worn: Vec<_> = panels.iter().map(|panel| project.look(&panel.id).fabric).collect();
+    let worn: Vec<_> = panels.iter().map(|panel| project.look_of(panel).fabric).collect();
     let same = worn.first().copied().filter(|first| worn.iter().all(|other| other == first));
     let named = |id| project.fabrics.iter().find(|fabric| Some(fabric.id) == id).map(|fabric| fabric.name.clone());
     let shown = match same {
@@ -176,8 +175,7 @@ impl Inspector {
                 "Counter-clockwise in the flat pattern, from the right as drawn with v up; drag or type",
             );
             if field.drag_started() {
-                self.gestures += 1;
-                self.dragged = Some(Gesture::new(self.gestures));
+                self.dragged = Some(Gesture::begin());
             }
             if degrees != before {
                 let edit = Edit::TurnDirection { panels: now.clone(), by: (degrees - before).to_radians() };
@@ -196,11 +194,11 @@ impl Inspector {
                 (Source::Yarn, "Yarn", "Where the yarn really goes on sheared cloth"),
             ] {
                 if ui.radio(first.source == source, name).on_hover_text(tooltip).clicked() {
-                    self.gestures += 1;
+                    let gesture = Gesture::begin();
                     for (id, direction) in &now {
                         let direction = Some(Direction { source, ..*direction });
                         let edit = Edit::SetDirection { panels: vec![id.clone()], direction };
-                        studio.submit_in(Gesture::new(self.gestures), edit);
+                        studio.submit_in(gesture, edit);
                     }
                 }
             }

@@ -70,7 +70,7 @@ impl Plugin for Panels {
         let tokens = Tokens::of(ui);
         let mut hovered = None;
         for panel in &garment.panels {
-            let look = studio.document.project().look(&panel.id);
+            let look = studio.document.project().look_of(panel);
             ui.horizontal(|ui| {
                 let mut visible = look.visible;
                 let eye = ui.checkbox(&mut visible, ()).on_hover_text("Shown in the view");
@@ -81,9 +81,7 @@ impl Plugin for Panels {
                     studio.submit(Edit::SetVisible { panels: vec![panel.id.clone()], visible });
                 }
                 let selected = studio.selection.panels.contains(&panel.id);
-                let fabric = look.fabric.filter(|_| panel.takes_fabric).and_then(|id| {
-                    studio.document.project().fabrics.iter().find(|fabric| fabric.id == id)
-                });
+                let fabric = look.fabric.and_then(|id| studio.document.project().fabric(id));
                 let weak = if selected { tokens.on_accent } else { tokens.text_weak };
                 let fabric = RichText::new(fabric.map_or("no fabric", |fabric| fabric.name.as_str())).color(weak);
                 let row = egui::Button::selectable(selected, panel.name.as_str())
