@@ -4,6 +4,7 @@ mod activity;
 mod fabrics;
 mod history;
 mod inspector;
+mod look;
 mod panels;
 
 use studio_plugin::Registry;
@@ -13,6 +14,7 @@ pub(super) fn register(registry: &mut Registry) {
     registry.register(panels::Panels);
     registry.register(fabrics::Fabrics);
     registry.register(inspector::Inspector::default());
+    registry.register(look::Look);
     registry.register(history::History);
     registry.register(activity::Activity);
 }
