@@ -1,5 +1,19 @@
 //! The document: a garment, the fabrics in use, what each panel is made of and how it is cut, the view, notes.
+//!
+//! A [`Project`] is plain data. A [`Document`] is a project with its history: it changes only through [`Edit`]s, which
+//! are checked first, so that every change can be undone and no project is ever half right.
 
+mod asset;
+mod edit;
+mod edit_name;
+mod history;
+mod project;
+#[cfg(test)]
+mod tests;
 mod view;
 
+pub use asset::{Asset, FabricId, FabricInUse};
+pub use edit::Edit;
+pub use history::{Document, Gesture, Snapshot};
+pub use project::{PanelChoice, PanelLook, Project};
 pub use view::ViewSettings;

@@ -1,0 +1,121 @@
+//! What can be done to a project.
+
+use std::f32::consts::{PI, TAU};
+use std::path::PathBuf;
+
+use amc_core::direction::Direction;
+use amc_core::{Error, Result};
+
+use super::{Asset, FabricId, FabricInUse, PanelChoice, Project};
+
+/// One change of a project. Panels are named by their ids.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Edit {
+    /// Another garment. What was chosen for panels stays, by their ids.
+    SetGarment(Asset),
+    /// One fabric more, at the end of those in use.
+    AddFabric(FabricInUse),
+    /// One fabric less: panels it was chosen for wear the default again.
+    RemoveFabric(FabricId),
+    /// The panels' fabric.
+    SetFabric {
+        /// The panels.
+        panels: Vec<String>,
+        /// None: plain grey.
+        fabric: Option<FabricId>,
+    },
+    /// The panels' direction.
+    SetDirection {
+        /// The panels.
+        panels: Vec<String>,
+        /// None: along the grain.
+        direction: Option<Direction>,
+    },
+    /// Each panel's direction turned from what it is now; a quarter turn swaps warp and weft.
+    TurnDirection {
+        /// The panels, each with its direction now (which whoever knows the grain can say).
+        panels: Vec<(String, Direction)>,
+        /// Radians, counter-clockwise in the flat pattern.
+        by: f32,
+    },
+    /// Whether the panels are drawn.
+    SetVisible {
+        /// The panels.
+        panels: Vec<String>,
+        /// Drawn, or hidden.
+        visible: bool,
+    },
+    /// The notes, whole.
+    SetNotes(String),
+    /// Another asset in place of every use of a file: one that was moved, or is missing.
+    Relocate {
+        /// The file's path, as the project has it.
+        old: PathBuf,
+        /// What takes its place.
+        new: Asset,
+    },
+}
+
+impl Edit {
+    /// `project` with this change, unchecked.
+    ///
+    /// # Errors
+    /// The edit speaks of a fabric or a file that `project` does not have.
+    pub(super) fn apply(self, project: &mut Project) -> Result<()> {
+        match self {
+            Self::SetGarment(garment) => project.garment = garment,
+            Self::AddFabric(fabric) => project.fabrics.push(fabric),
+            Self::RemoveFabric(id) => remove_fabric(project, id)?,
+            Self::SetFabric { panels, fabric } => choose(project, panels, |choice| choice.fabric = Some(fabric)),
+            Self::SetDirection { panels, direction } => {
+                choose(project, panels, |choice| choice.direction = direction);
+            }
+            Self::TurnDirection { panels, by } => {
+                for (panel, now) in panels {
+                    let turned = Direction { angle: wrapped(now.angle + by), ..now };
+                    choose(project, vec![panel], |choice| choice.direction = Some(turned));
+                }
+            }
+            Self::SetVisible { panels, visible } => choose(project, panels, |choice| choice.visible = visible),
+            Self::SetNotes(notes) => project.notes = notes,
+            Self::Relocate { old, new } => {
+                let mut uses = project.assets_mut().filter(|asset| asset.path() == Some(&old)).peekable();
+                if uses.peek().is_none() {
+                    return Err(Error::invalid("the project does not use this file").in_file(&old));
+                }
+                uses.for_each(|asset| *asset = new.clone());
+            }
+        }
+        Ok(())
+    }
+}
+
+fn remove_fabric(project: &mut Project, id: FabricId) -> Result<()> {
+    let Some(place) = project.fabrics.iter().position(|fabric| fabric.id == id) else {
+        return Err(Error::invalid(format!("there is no fabric {} to remove", id.number())));
+    };
+    project.fabrics.remove(place);
+    project.panels.retain(|_, choice| {
+        if choice.fabric == Some(Some(id)) {
+            choice.fabric = None;
+        }
+        *choice != PanelChoice::default()
+    });
+    Ok(())
+}
+
+/// Changes the choices of `panels`; a panel with none left is no longer listed.
+fn choose(project: &mut Project, panels: Vec<String>, change: impl Fn(&mut PanelChoice)) {
+    for panel in panels {
+        let mut choice = project.panels.remove(&panel).unwrap_or_default();
+        change(&mut choice);
+        if choice != PanelChoice::default() {
+            project.panels.insert(panel, choice);
+        }
+    }
+}
+
+/// The same angle within half a turn of 0; what is so already is not touched.
+pub(super) fn wrapped(angle: f32) -> f32 {
+    if angle.abs() <= PI { angle } else { (angle + PI).rem_euclid(TAU) - PI }
+}

@@ -1,0 +1,236 @@
+//! A project: plain data, and what must be true of it.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use amc_core::direction::{Direction, Field, Source};
+use amc_core::mesh::Panel;
+use amc_core::{Error, Result};
+use serde::{Deserialize, Serialize};
+
+use super::{Asset, FabricId, FabricInUse, ViewSettings};
+
+/// What the person works on.
+///
+/// Panels are known by their ids ([`Panel::id`]); looks of panels that the garment does not have are kept, as the
+/// garment may be exchanged and come back.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Project {
+    /// The garment: a file, `garment:NAME` or `shape:NAME`.
+    pub garment: Asset,
+    /// The fabrics in use, in the order they were added. The first is worn wherever nobody has chosen.
+    pub fabrics: Vec<FabricInUse>,
+    /// What was chosen for each panel, by its id. A panel that is not listed is all as by default.
+    pub panels: BTreeMap<String, PanelChoice>,
+    /// How it is looked at.
+    pub view: ViewSettings,
+    /// Whatever the person wrote down, at most [`Project::LONGEST_NOTES`] bytes.
+    pub notes: String,
+}
+
+/// What was chosen for a panel; what was not chosen follows the default.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PanelChoice {
+    /// Its fabric: `Some(None)` is plain grey, none is whatever is worn by default.
+    pub fabric: Option<Option<FabricId>>,
+    /// Its direction; none: along its grain.
+    pub direction: Option<Direction>,
+    /// Whether it is drawn.
+    pub visible: bool,
+}
+
+impl Default for PanelChoice {
+    fn default() -> Self {
+        Self { fabric: None, direction: None, visible: true }
+    }
+}
+
+/// How a panel is to be drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PanelLook {
+    /// Its fabric; none: plain grey.
+    pub fabric: Option<FabricId>,
+    /// Its direction; none: along its grain ([`Direction::along_grain`]).
+    pub direction: Option<Direction>,
+    /// Whether it is drawn.
+    pub visible: bool,
+}
+
+impl Default for Project {
+    /// The bundled shirt in the bundled satin.
+    fn default() -> Self {
+        let satin = FabricInUse {
+            id: FabricId::new(0),
+            asset: Asset::Bundled("fabric:satin".to_owned()),
+            name: "Satin".to_owned(),
+        };
+        Self {
+            garment: Asset::Bundled("garment:shirt".to_owned()),
+            fabrics: vec![satin],
+            panels: BTreeMap::new(),
+            view: ViewSettings::default(),
+            notes: String::new(),
+        }
+    }
+}
+
+impl Project {
+    /// The most fabrics a project may use.
+    pub const MOST_FABRICS: usize = 4096;
+
+    /// The most panels that may be listed.
+    pub const MOST_PANELS: usize = 65_536;
+
+    /// The longest notes, bytes.
+    pub const LONGEST_NOTES: usize = 1 << 20;
+
+    /// The longest name of a fabric and the longest panel id, bytes.
+    pub const LONGEST_NAME: usize = 1024;
+
+    /// The look of the panel of this id, as cloth: where nobody has chosen it wears the first fabric, along its grain,
+    /// and is visible. For a panel at hand use [`Project::look_of`], which knows buttons from cloth.
+    pub fn look(&self, panel: &str) -> PanelLook {
+        self.look_or(panel, self.fabrics.first().map(|fabric| fabric.id))
+    }
+
+    /// The look of `panel`. One that takes no fabric ([`Panel::takes_fabric`]) is plain grey until a fabric is chosen for
+    /// it.
+    pub fn look_of(&self, panel: &Panel) -> PanelLook {
+        match panel.takes_fabric {
+            true => self.look(&panel.id),
+            false => self.look_or(&panel.id, None),
+        }
+    }
+
+    fn look_or(&self, panel: &str, fabric: Option<FabricId>) -> PanelLook {
+        match self.panels.get(panel) {
+            Some(choice) => PanelLook {
+                fabric: choice.fabric.unwrap_or(fabric),
+                direction: choice.direction,
+                visible: choice.visible,
+            },
+            None => PanelLook { fabric, direction: None, visible: true },
+        }
+    }
+
+    /// The fabric of this id.
+    pub fn fabric(&self, id: FabricId) -> Option<&FabricInUse> {
+        self.fabrics.iter().find(|fabric| fabric.id == id)
+    }
+
+    /// An id that no fabric has: one above the largest.
+    pub fn free_fabric_id(&self) -> FabricId {
+        let used: BTreeSet<u32> = self.fabrics.iter().map(|fabric| fabric.id.number()).collect();
+        let above = used.last().map_or(Some(0), |last| last.checked_add(1));
+        // Only a file made by hand gets that far.
+        let gap = || (0..=u32::MAX).find(|number| !used.contains(number));
+        FabricId::new(above.or_else(gap).unwrap_or_default())
+    }
+
+    /// Every asset: the garment, then the fabrics'.
+    pub fn assets(&self) -> impl Iterator<Item = &Asset> {
+        std::iter::once(&self.garment).chain(self.fabrics.iter().map(|fabric| &fabric.asset))
+    }
+
+    /// Every asset, to be replaced.
+    pub fn assets_mut(&mut self) -> impl Iterator<Item = &mut Asset> {
+        std::iter::once(&mut self.garment).chain(self.fabrics.iter_mut().map(|fabric| &mut fabric.asset))
+    }
+
+    /// Checks what must be true of every project: assets that can be what they are used as, fabrics with names and ids of
+    /// their own, chosen fabrics that are in use, directions that are numbers, and the limits above.
+    ///
+    /// # Errors
+    /// The first thing that is not so, and where.
+    pub fn check(&self) -> Result<()> {
+        self.garment.check_garment().map_err(|error| error.at_element("garment"))?;
+        self.check_fabrics()?;
+        self.check_panels()?;
+        if self.notes.len() > Self::LONGEST_NOTES {
+            return Err(Error::too_large(format!(
+                "the notes are longer than {} KiB: keep the rest in a file beside the project",
+                Self::LONGEST_NOTES >> 10
+            ))
+            .at_element("notes"));
+        }
+        Ok(())
+    }
+
+    fn check_fabrics(&self) -> Result<()> {
+        if self.fabrics.len() > Self::MOST_FABRICS {
+            let what = format!("a project may use {} fabrics: remove some", Self::MOST_FABRICS);
+            return Err(Error::too_large(what).at_element("fabrics"));
+        }
+        let mut ids = BTreeSet::new();
+        for (k, fabric) in self.fabrics.iter().enumerate() {
+            let place = |error: Error| error.at_element(format!("fabrics[{k}]"));
+            fabric.asset.check_fabric().map_err(place)?;
+            check_name(&fabric.name, "the fabric's name").map_err(place)?;
+            if !ids.insert(fabric.id) {
+                let what = format!("another fabric has the id {} too", fabric.id.number());
+                return Err(place(Error::invalid(what)));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_panels(&self) -> Result<()> {
+        if self.panels.len() > Self::MOST_PANELS {
+            let what = format!("more than {} panels are listed", Self::MOST_PANELS);
+            return Err(Error::too_large(what).at_element("panels"));
+        }
+        let ids: BTreeSet<FabricId> = self.fabrics.iter().map(|fabric| fabric.id).collect();
+        for (panel, choice) in &self.panels {
+            let place = |error: Error| error.at_element(format!("panels.{panel}"));
+            check_name(panel, "the panel's id").map_err(|error| error.at_element("panels"))?;
+            if let Some(Some(id)) = choice.fabric
+                && !ids.contains(&id)
+            {
+                let what = format!("it wears fabric {}, which is not among the fabrics in use", id.number());
+                return Err(place(Error::invalid(what)));
+            }
+            if choice.direction.is_some_and(|direction| !is_finite(direction)) {
+                return Err(place(Error::invalid("its direction is not a finite number")));
+            }
+        }
+        Ok(())
+    }
+
+    /// About how much memory it takes, bytes: what its strings hold, and each entry with what a tree spends on it.
+    pub(super) fn bytes(&self) -> usize {
+        let asset = |asset: &Asset| match asset {
+            Asset::Bundled(name) => name.len(),
+            Asset::File { path, content } => {
+                path.as_os_str().len() + content.as_ref().map_or(0, String::len)
+            }
+        };
+        let fabrics = self.fabrics.iter().map(|fabric| size_of::<FabricInUse>() + fabric.name.len());
+        let entry = size_of::<(String, PanelChoice)>();
+        // Nodes of the tree are at least half full.
+        let panels = self.panels.keys().map(|id| 2 * entry + id.len());
+        size_of::<Self>()
+            + self.assets().map(asset).sum::<usize>()
+            + fabrics.sum::<usize>()
+            + panels.sum::<usize>()
+            + self.notes.len()
+    }
+}
+
+fn check_name(name: &str, what: &str) -> Result<()> {
+    if name.trim().is_empty() {
+        return Err(Error::invalid(format!("{what} is empty")));
+    }
+    if name.len() > Project::LONGEST_NAME {
+        return Err(Error::too_large(format!("{what} is longer than {} bytes", Project::LONGEST_NAME)));
+    }
+    Ok(())
+}
+
+fn is_finite(direction: Direction) -> bool {
+    let field = match direction.source {
+        Source::Gradient | Source::Yarn => true,
+        Source::Field(Field::Around { origin, direction }) => origin.is_finite() && direction.is_finite(),
+        Source::Field(Field::Along { direction }) => direction.is_finite(),
+        Source::Field(Field::Radial { origin }) => origin.is_finite(),
+    };
+    field && direction.angle.is_finite()
+}

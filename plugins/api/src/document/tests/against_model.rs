@@ -1,0 +1,225 @@
+//! Random sequences of 10,000 commands against a plain model: a list of all projects there were, and for each edit what
+//! it does to a handful of panels.
+
+use super::super::{Asset, Document, Edit, FabricId, Gesture, Project};
+use super::{at, fabric, turn};
+
+const COMMANDS: usize = 10_000;
+const PANELS: [&str; 5] = ["front", "back", "sleeve-1", "sleeve-2", "collar"];
+
+/// splitmix64 (Steele, Lea, Flood 2014).
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, bound: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut x = self.0;
+        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((x ^ (x >> 31)) % bound as u64) as usize
+    }
+
+    fn chance(&mut self, one_in: usize) -> bool {
+        self.below(one_in) == 0
+    }
+}
+
+/// A project as tables of numbers.
+#[derive(Debug, Clone, PartialEq)]
+struct Plain {
+    garment: String,
+    fabrics: Vec<u32>,
+    /// Per panel: chosen fabric (-2 default, -1 grey), angle, visible.
+    panels: [(i64, Option<f32>, bool); PANELS.len()],
+    notes: String,
+}
+
+impl Plain {
+    fn new() -> Self {
+        let panels = [(-2, None, true); PANELS.len()];
+        Self { garment: "garment:shirt".to_owned(), fabrics: vec![0], panels, notes: String::new() }
+    }
+
+    fn is(&self, project: &Project) -> bool {
+        let fabrics: Vec<u32> = project.fabrics.iter().map(|fabric| fabric.id.number()).collect();
+        let worn = |chosen: i64| match chosen {
+            -2 => self.fabrics.first().copied(),
+            -1 => None,
+            id => Some(id as u32),
+        };
+        let looks = PANELS.iter().zip(&self.panels).all(|(name, &(chosen, angle, visible))| {
+            let look = project.look(name);
+            let is_turned = look.direction.map(|direction| direction.angle);
+            look.fabric.map(FabricId::number) == worn(chosen) && is_turned == angle && look.visible == visible
+        });
+        looks
+            && fabrics == self.fabrics
+            && project.garment == Asset::Bundled(self.garment.clone())
+            && project.notes == self.notes
+    }
+
+    /// A random edit, and the tables after it; none: it must be refused.
+    fn random_edit(&self, random: &mut Random) -> (Edit, Option<Self>) {
+        let mut after = self.clone();
+        let chosen: Vec<usize> = (0..PANELS.len()).filter(|_| random.chance(2)).collect();
+        let names: Vec<String> = chosen.iter().map(|&k| PANELS[k].to_owned()).collect();
+        let edit = match random.below(8) {
+            0 => {
+                after.garment = ["garment:shirt", "shape:sheet", "garment:scarf"][random.below(3)].to_owned();
+                Edit::SetGarment(Asset::Bundled(after.garment.clone()))
+            }
+            1 => {
+                let id = random.below(6) as u32;
+                let edit = Edit::AddFabric(fabric(id, "any"));
+                if self.fabrics.contains(&id) {
+                    return (edit, None);
+                }
+                after.fabrics.push(id);
+                edit
+            }
+            2 => {
+                let id = random.below(6) as u32;
+                let edit = Edit::RemoveFabric(FabricId::new(id));
+                let Some(place) = self.fabrics.iter().position(|&known| known == id) else { return (edit, None) };
+                after.fabrics.remove(place);
+                after.panels.iter_mut().filter(|panel| panel.0 == i64::from(id)).for_each(|panel| panel.0 = -2);
+                edit
+            }
+            3 => {
+                let id = random.below(7) as i64 - 1;
+                chosen.iter().for_each(|&k| after.panels[k].0 = id);
+                let fabric = u32::try_from(id).ok().map(FabricId::new);
+                let edit = Edit::SetFabric { panels: names, fabric };
+                let is_known = fabric.is_none_or(|fabric| self.fabrics.contains(&fabric.number()));
+                if !is_known && !chosen.is_empty() {
+                    return (edit, None);
+                }
+                edit
+            }
+            4 => {
+                let angle = [None, Some(0.0), Some(1.5)][random.below(3)];
+                chosen.iter().for_each(|&k| after.panels[k].1 = angle);
+                Edit::SetDirection { panels: names, direction: angle.map(at) }
+            }
+            5 => {
+                let panel = random.below(PANELS.len());
+                let now = self.panels[panel].1.unwrap_or(0.25);
+                // Within half a turn and exact in binary.
+                let by = [0.0, if now > 0.0 { -1.25 } else { 0.5 }][random.below(2)];
+                after.panels[panel].1 = Some(now + by);
+                turn(PANELS[panel], now, by)
+            }
+            6 => {
+                let visible = random.chance(2);
+                chosen.iter().for_each(|&k| after.panels[k].2 = visible);
+                Edit::SetVisible { panels: names, visible }
+            }
+            _ => {
+                after.notes = "lore ".repeat(random.below(4));
+                Edit::SetNotes(after.notes.clone())
+            }
+        };
+        (edit, Some(after))
+    }
+}
+
+/// All projects there were, the last one undone or not, and where we are.
+struct Model {
+    states: Vec<Plain>,
+    position: usize,
+    open: Option<Gesture>,
+    /// Whether the last state is the open gesture's.
+    has_step: bool,
+}
+
+impl Model {
+    fn now(&self) -> &Plain {
+        &self.states[self.position]
+    }
+
+    fn go_to(&mut self, position: usize) {
+        self.position = position.min(self.states.len() - 1);
+        self.open = None;
+    }
+
+    fn submit(&mut self, after: Plain, gesture: Option<Gesture>) {
+        let goes_on = gesture.is_some() && self.open == gesture;
+        let has_step = goes_on && self.has_step;
+        (self.open, self.has_step) = (gesture, has_step);
+        if after == *self.now() {
+            return;
+        }
+        self.states.truncate(self.position + 1);
+        if has_step {
+            self.states.pop();
+        }
+        let is_back = has_step && self.states.last() == Some(&after);
+        if !is_back {
+            self.states.push(after);
+        }
+        self.has_step = !is_back;
+        self.position = self.states.len() - 1;
+    }
+}
+
+fn agree(document: &Document, model: &Model, k: usize) {
+    assert!(model.now().is(document.project()), "{k}: {:?} is not {:?}", document.project(), model.now());
+    document.project().check().unwrap();
+    assert_eq!((document.position(), document.steps().count()), (model.position, model.states.len() - 1), "{k}");
+    assert_eq!(document.undo_name().is_some(), model.position > 0);
+    assert_eq!(document.undo_name(), document.steps().nth(model.position.wrapping_sub(1)));
+    assert_eq!(document.redo_name(), document.steps().nth(model.position));
+    assert!(document.history_bytes() <= Document::HISTORY_BYTES);
+}
+
+fn run(seed: u64) {
+    let mut random = Random(seed);
+    let mut document = Document::new(Project::default());
+    let mut model = Model { states: vec![Plain::new()], position: 0, open: None, has_step: false };
+    let mut gesture = Gesture::begin();
+    for k in 0..COMMANDS {
+        let revision = document.revision();
+        let before = document.snapshot().project;
+        match random.below(10) {
+            0 | 1 => {
+                assert_eq!(document.undo().is_some(), model.position > 0);
+                if model.position > 0 {
+                    model.go_to(model.position - 1);
+                }
+            }
+            2 => {
+                let has_undone = model.position + 1 < model.states.len();
+                assert_eq!(document.redo().is_some(), has_undone);
+                if has_undone {
+                    model.go_to(model.position + 1);
+                }
+            }
+            3 if random.chance(20) => {
+                let position = random.below(model.states.len() + 3);
+                document.go_to(position);
+                model.go_to(position);
+            }
+            _ => {
+                let (edit, after) = model.now().random_edit(&mut random);
+                if random.chance(4) {
+                    gesture = Gesture::begin();
+                }
+                let gesture = random.chance(2).then_some(gesture);
+                let done = document.submit(edit, gesture);
+                assert_eq!(done.is_ok(), after.is_some(), "{k}: {done:?}");
+                if let Some(after) = after {
+                    model.submit(after, gesture);
+                }
+            }
+        }
+        agree(&document, &model, k);
+        let has_changed = *before != *document.project();
+        assert!(document.revision() >= revision && (document.revision() > revision || !has_changed), "{k}");
+    }
+}
+
+#[test]
+fn ten_thousand_commands_end_where_they_should() {
+    run(1);
+    run(2);
+}
