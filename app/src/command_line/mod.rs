@@ -45,7 +45,7 @@ impl From<amc_core::Error> for Failure {
 
 /// Anisotropic MatCap from the command line.
 ///
-/// Without a command it bakes the bundled satin, renders something in it and says where the picture is.
+/// Without a command it bakes the bundled satin, renders the bundled shirt in it and says where the picture is.
 #[derive(Debug, Parser)]
 #[command(name = "amc-studio", version, about, args_conflicts_with_subcommands = true)]
 struct Arguments {

@@ -1,6 +1,6 @@
 //! The fabrics of a scene: each file read once, the bundled ones baked on first use and kept.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use amc_core::amc::Amc;
@@ -18,7 +18,7 @@ const FABRIC_PREFIX: &str = "fabric:";
 pub(crate) struct Fabrics {
     tables: Vec<Arc<Amc>>,
     /// What each was asked for as.
-    names: Vec<String>,
+    names: Vec<PathBuf>,
 }
 
 impl Fabrics {
@@ -27,7 +27,7 @@ impl Fabrics {
     pub(crate) fn find(&mut self, named: &Path, progress: &Progress<'_>) -> Result<usize> {
         match named.to_str().and_then(|text| text.strip_prefix(FABRIC_PREFIX)) {
             Some(name) => self.bundled(reflectance::bundled(name)?, progress),
-            None => self.number(&named.to_string_lossy(), || Amc::read(named)),
+            None => self.number(named, || Amc::read(named)),
         }
     }
 
@@ -37,15 +37,16 @@ impl Fabrics {
     }
 
     fn bundled(&mut self, fabric: Bundled, progress: &Progress<'_>) -> Result<usize> {
-        self.number(&format!("{FABRIC_PREFIX}{}", fabric.name), || bundled_fabric(fabric, progress))
+        let named = format!("{FABRIC_PREFIX}{}", fabric.name);
+        self.number(Path::new(&named), || bundled_fabric(fabric, progress))
     }
 
-    fn number(&mut self, name: &str, make: impl FnOnce() -> Result<Amc>) -> Result<usize> {
-        if let Some(number) = self.names.iter().position(|known| known == name) {
+    fn number(&mut self, named: &Path, make: impl FnOnce() -> Result<Amc>) -> Result<usize> {
+        if let Some(number) = self.names.iter().position(|known| known == named) {
             return Ok(number);
         }
         self.tables.push(Arc::new(make()?));
-        self.names.push(name.to_owned());
+        self.names.push(named.to_owned());
         Ok(self.tables.len() - 1)
     }
 
