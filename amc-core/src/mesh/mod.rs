@@ -15,6 +15,7 @@ mod forest;
 pub mod gltf;
 mod identity;
 mod islands;
+mod lanes;
 mod measure;
 #[cfg(test)]
 mod mutations;
