@@ -14,7 +14,9 @@ use studio_plugin::{Context, Pane, Place, Plugin};
 /// How long loading may take before the test counts as hung.
 const PATIENCE: Duration = Duration::from_secs(240);
 
-fn window(studio: Studio) -> Harness<'static, App> {
+/// A window that keeps its things in `folder`.
+fn window(studio: Studio, folder: &Path) -> Harness<'static, App> {
+    let studio = studio.keeping_in(folder.join("kept"));
     let mut harness = Harness::builder()
         .with_size([1280.0, 800.0])
         .with_max_steps(100)
@@ -60,7 +62,7 @@ fn picture(harness: &mut Harness<'_, App>) -> Vec<u8> {
 fn a_panel_is_picked_turned_undone_saved_and_opened_again() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("mine.amcproj");
-    let mut harness = window(Studio::new());
+    let mut harness = window(Studio::new(), folder.path());
     let first = picture(&mut harness);
 
     harness.get_by(|node| node.label().is_some_and(|label| label.starts_with("Back"))).click();
@@ -79,11 +81,12 @@ fn a_panel_is_picked_turned_undone_saved_and_opened_again() {
     assert_eq!(degrees(&harness, panel), Some(turned));
 
     harness.state_mut().save_to(&file);
+    settle(&mut harness);
     assert!(!harness.state().document().is_changed());
     let saved = harness.state().document().project().clone();
     drop(harness);
 
-    let mut again = window(Studio::new().open([file]));
+    let mut again = window(Studio::new().open([file]), folder.path());
     assert_eq!(again.state().document().project(), &saved);
     assert_eq!(degrees(&again, panel), Some(turned));
     picture(&mut again);
@@ -91,7 +94,8 @@ fn a_panel_is_picked_turned_undone_saved_and_opened_again() {
 
 #[test]
 fn the_palette_finds_a_command_by_a_few_letters() {
-    let mut harness = window(Studio::new());
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
     press(&mut harness, Modifiers::COMMAND, Key::P);
     harness.get_by_label("Type what you want to do").type_text("bias");
     settle(&mut harness);
@@ -124,7 +128,8 @@ impl Plugin for Faulty {
 
 #[test]
 fn a_plugin_that_panics_is_switched_off_and_the_rest_goes_on() {
-    let mut harness = window(Studio::new().with_plugin(Faulty));
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new().with_plugin(Faulty), folder.path());
     click(&mut harness, "Log");
     harness.get_by(|node| node.label().is_some_and(|label| label.contains("'Faulty' failed")));
     assert!(harness.query_by_label("Faulty pane").is_none());
@@ -137,7 +142,7 @@ fn what_cannot_be_opened_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let odd = folder.path().join("notes.txt");
     std::fs::write(&odd, "hello").unwrap();
-    let mut harness = window(Studio::new().open([odd, folder.path().join("gone.glb")]));
+    let mut harness = window(Studio::new().open([odd, folder.path().join("gone.glb")]), folder.path());
     click(&mut harness, "Log");
     for said in ["notes.txt", "gone.glb"] {
         harness.get_by(|node| node.label().is_some_and(|label| label.contains(said) && label.contains("open")));
@@ -148,12 +153,13 @@ fn what_cannot_be_opened_is_said() {
 #[test]
 #[ignore = "writes pictures, asserts nothing about them"]
 fn pictures_of_the_window() {
+    let folder = tempfile::tempdir().unwrap();
     for theme in [egui::Theme::Dark, egui::Theme::Light] {
         let mut harness = Harness::builder()
             .with_size([1440.0, 900.0])
             .with_theme(theme)
             .wgpu()
-            .build_eframe(|creation| Studio::new().into_app(creation));
+            .build_eframe(|creation| Studio::new().keeping_in(folder.path()).into_app(creation));
         settle(&mut harness);
         let name = format!("studio-{}.png", if theme == egui::Theme::Dark { "dark" } else { "light" });
         harness.render().unwrap().save(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)).unwrap();

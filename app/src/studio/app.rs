@@ -5,25 +5,24 @@ use std::path::{Path, PathBuf};
 
 use amc_core::render::gpu::Gpu;
 use eframe::egui::{self, Key, Modifiers, ViewportCommand};
-use studio_plugin::document::{Document, Project};
+use studio_plugin::document::Document;
 use studio_plugin::{Context, Jobs, Notices, Registry, Request, Selection};
 
 use super::commands::{self, Action, Wanted};
+use super::desk::Desk;
 use super::dock::{self, Layout, Pane};
 use super::files::{self, Dialog, Opened, Purpose};
 use super::menu::Menu;
 use super::palette::Palette;
+use super::questions::{self, OfMissing, OfRecovery};
 use super::stager::Stager;
 use super::theme::{self, STEP, Tokens};
 use super::{texts, toasts};
-use crate::project;
 use crate::viewport::{Viewport, ViewportInput};
 
 /// The studio's window.
 pub struct App {
-    document: Document,
-    /// Where the project is saved; none: nowhere yet.
-    file: Option<PathBuf>,
+    desk: Desk,
     selection: Selection,
     jobs: Jobs,
     notices: Notices,
@@ -43,21 +42,26 @@ pub struct App {
 
 impl std::fmt::Debug for App {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("App").field("file", &self.file).field("registry", &self.registry).finish_non_exhaustive()
+        f.debug_struct("App").field("desk", &self.desk).field("registry", &self.registry).finish_non_exhaustive()
     }
 }
 
 impl App {
-    pub(super) fn new(registry: Registry, files: Vec<PathBuf>, creation: &eframe::CreationContext<'_>) -> Self {
+    pub(super) fn new(
+        registry: Registry,
+        files: Vec<PathBuf>,
+        folder: Option<PathBuf>,
+        creation: &eframe::CreationContext<'_>,
+    ) -> Self {
         theme::apply(&creation.egui_ctx);
         let context = creation.egui_ctx.clone();
         let render_state = creation.wgpu_render_state.as_ref();
+        let mut notices = Notices::default();
         let mut app = Self {
-            document: Document::new(Project::default()),
-            file: None,
+            desk: Desk::new(folder, &mut notices),
             selection: Selection::default(),
             jobs: Jobs::new(move || context.request_repaint()),
-            notices: Notices::default(),
+            notices,
             layout: dock::initial(&registry),
             registry,
             stager: Stager::default(),
@@ -78,20 +82,20 @@ impl App {
 
     /// What the person works on.
     pub fn document(&self) -> &Document {
-        &self.document
+        &self.desk.document
     }
 
     /// Whether all that the document asks for is drawn, and nothing runs.
     pub fn is_settled(&self) -> bool {
-        self.jobs.is_idle() && !self.stager.is_busy() && self.stager.drawn.is_some()
+        self.jobs.is_idle() && !self.desk.is_busy() && !self.stager.is_busy()
     }
 
     /// Opens a file as one that was dropped.
     pub fn open(&mut self, file: &Path) {
         match files::opened(file) {
-            Opened::Project(path) => self.open_project(&path),
+            Opened::Project(path) => self.desk.open(&path, &mut self.jobs),
             Opened::Edit(edit) => {
-                if let Err(error) = self.document.submit(edit, None) {
+                if let Err(error) = self.desk.document.submit(edit, None) {
                     self.notices.failed(error);
                 }
             }
@@ -99,38 +103,17 @@ impl App {
         }
     }
 
-    fn open_project(&mut self, path: &Path) {
-        match project::open(path) {
-            Ok(opened) => {
-                for notice in &opened.notices {
-                    self.notices.note(notice);
-                }
-                self.document = Document::new(opened.project);
-                self.file = Some(path.to_owned());
-                self.selection = Selection::default();
-            }
-            Err(error) => self.notices.failed(error),
-        }
-    }
-
     /// Saves to where the project is, else asks where.
     fn save(&mut self) {
-        match self.file.clone() {
+        match self.desk.file.clone() {
             Some(path) => self.save_to(&path),
             None => self.ask(Purpose::Save),
         }
     }
 
-    /// Saves the project to a file, which is from now on where it is saved.
+    /// Saves the project to a file, which is from then on where it is saved.
     pub fn save_to(&mut self, path: &Path) {
-        match project::save(self.document.project(), path) {
-            Ok(()) => {
-                self.document.mark_saved();
-                self.notices.done(format!("saved: {}", path.display()));
-                self.file = Some(path.to_owned());
-            }
-            Err(error) => self.notices.failed(error),
-        }
+        self.desk.save(path, &mut self.jobs);
     }
 
     fn import(&mut self, file: &Path) {
@@ -153,7 +136,7 @@ impl App {
 
     fn ask(&mut self, purpose: Purpose) {
         if self.dialog.is_none() {
-            let name = files::suggested_name(self.document.project());
+            let name = files::suggested_name(self.desk.document.project());
             self.dialog = Some(Dialog::open(purpose, &name, &mut self.jobs));
         }
     }
@@ -161,11 +144,12 @@ impl App {
     fn answered(&mut self) {
         let Some(dialog) = &self.dialog else { return };
         let Some(answer) = dialog.poll() else { return };
-        let purpose = dialog.purpose;
+        let purpose = dialog.purpose.clone();
         self.dialog = None;
         match (answer, purpose) {
             (Ok(Some(path)), Purpose::Open) => self.open(&path),
             (Ok(Some(path)), Purpose::Save) => self.save_to(&path),
+            (Ok(Some(path)), Purpose::Find(old)) => self.desk.locate(&old, &path, &mut self.notices),
             (Ok(None), _) => {}
             (Err(error), _) => self.notices.failed(error),
         }
@@ -175,7 +159,7 @@ impl App {
     fn with_context<T>(&mut self, call: impl FnOnce(&mut Registry, &mut Context<'_>) -> T) -> T {
         let mut requests = Vec::new();
         let mut studio = Context::new(
-            (&self.document, &self.stager.stage),
+            (&self.desk.document, &self.stager.stage),
             &mut self.selection,
             (&mut self.jobs, &mut self.notices),
             self.gpu.as_ref(),
@@ -191,12 +175,12 @@ impl App {
     fn grant(&mut self, request: Request) {
         match request {
             Request::Edit(edit, gesture) => {
-                if let Err(error) = self.document.submit(edit, gesture) {
+                if let Err(error) = self.desk.document.submit(edit, gesture) {
                     self.notices.failed(error);
                 }
             }
-            Request::GoTo(position) => self.document.go_to(position),
-            Request::View(view) => self.document.set_view(view),
+            Request::GoTo(position) => self.desk.document.go_to(position),
+            Request::View(view) => self.desk.document.set_view(view),
             Request::Copy(text) => self.context.copy_text(text),
         }
     }
@@ -218,19 +202,16 @@ impl App {
 
     fn act(&mut self, action: Action, ui: &egui::Ui) {
         match action {
-            Action::New => {
-                self.document = Document::new(Project::default());
-                self.file = None;
-            }
+            Action::New => self.desk.begin(),
             Action::Open => self.ask(Purpose::Open),
             Action::Save => self.save(),
             Action::SaveAs => self.ask(Purpose::Save),
             Action::Quit => ui.send_viewport_cmd(ViewportCommand::Close),
             Action::Undo => {
-                self.document.undo();
+                self.desk.document.undo();
             }
             Action::Redo => {
-                self.document.redo();
+                self.desk.document.redo();
             }
             Action::SelectAll => {
                 let panels = self.stager.stage.garment.iter().flat_map(|garment| &garment.panels);
@@ -251,8 +232,8 @@ impl App {
 
     fn can_run(&self, wanted: Wanted) -> bool {
         match wanted {
-            Wanted::Own(Action::Undo) => self.document.undo_name().is_some(),
-            Wanted::Own(Action::Redo) => self.document.redo_name().is_some(),
+            Wanted::Own(Action::Undo) => self.desk.document.undo_name().is_some(),
+            Wanted::Own(Action::Redo) => self.desk.document.redo_name().is_some(),
             Wanted::Own(Action::SelectNone) => !self.selection.panels.is_empty(),
             Wanted::Own(_) | Wanted::Plugin { .. } => true,
         }
@@ -281,7 +262,7 @@ impl App {
     }
 
     fn title(&self) -> String {
-        let name = self.file.as_ref().and_then(|file| file.file_name());
+        let name = self.desk.file.as_ref().and_then(|file| file.file_name());
         name.map_or_else(|| texts::UNNAMED.to_owned(), |name| name.to_string_lossy().into_owned())
     }
 
@@ -321,18 +302,24 @@ impl App {
         };
         viewport.set_scene(drawing.clone(), picker.clone());
         let Some(garment) = &self.stager.stage.garment else { return };
-        let project = self.document.project();
+        let project = self.desk.document.project();
         let number = |id: &String| garment.panels.iter().position(|panel| panel.id == *id);
         let selected: BTreeSet<usize> = self.selection.panels.iter().filter_map(number).collect();
         let hidden: BTreeSet<usize> =
             (0..garment.panels.len()).filter(|&k| !project.look_of(&garment.panels[k]).visible).collect();
+        let tokens = Tokens::of(ui);
         let input = ViewportInput {
             selected: &selected,
             hovered: self.selection.hovered.as_ref().and_then(number),
             hidden: &hidden,
+            compared: None,
+            tool: false,
+            backdrop: tokens.gap,
+            selected_color: tokens.accent,
+            hovered_color: tokens.text_weak,
         };
         let mut view = project.view.clone();
-        let output = viewport.show(ui, &mut view, input);
+        let output = viewport.show(ui, &mut view, &input);
         let id = |panel: usize| garment.panels.get(panel).map(|panel| panel.id.clone());
         self.selection.hovered = output.hovered.and_then(id);
         if let Some(click) = output.clicked {
@@ -343,10 +330,13 @@ impl App {
             }
         }
         if let Some(boxed) = output.boxed {
-            self.selection.panels = boxed.into_iter().filter_map(id).collect();
+            if !boxed.add {
+                self.selection.panels.clear();
+            }
+            self.selection.panels.extend(boxed.panels.into_iter().filter_map(id));
         }
         if view != project.view {
-            self.document.set_view(view);
+            self.desk.document.set_view(view);
         }
     }
 
@@ -369,9 +359,23 @@ impl App {
         }
     }
 
+    /// Asks what must be answered before the work goes on.
+    fn question(&mut self, ui: &egui::Ui) {
+        match questions::recovery(ui, &self.desk.recoverable) {
+            Some(OfRecovery::Recover(index)) => self.desk.recover(index, &mut self.notices),
+            Some(OfRecovery::Discard(index)) => self.desk.discard(index, &mut self.notices),
+            None => {}
+        }
+        match questions::missing(ui, &self.desk.missing) {
+            Some(OfMissing::Find(path)) => self.ask(Purpose::Find(path)),
+            Some(OfMissing::Without) => self.desk.missing.clear(),
+            None => {}
+        }
+    }
+
     /// Holds the window open while there are changes that nobody has said what to do with.
     fn leave(&mut self, ui: &egui::Ui) {
-        if ui.input(|input| input.viewport().close_requested()) && self.document.is_changed() && !self.discard {
+        if ui.input(|input| input.viewport().close_requested()) && self.desk.document.is_changed() && !self.discard {
             ui.send_viewport_cmd(ViewportCommand::CancelClose);
             self.leaving = true;
         }
@@ -397,7 +401,6 @@ impl App {
         if save {
             self.save();
             self.leaving = false;
-            self.discard = !self.document.is_changed();
         }
         if self.discard {
             ui.send_viewport_cmd(ViewportCommand::Close);
@@ -410,7 +413,8 @@ impl eframe::App for App {
         self.answered();
         self.drops(ui);
         self.with_context(|registry, studio| registry.each(studio, |plugin, studio| plugin.update(studio)));
-        self.stager.update(self.document.project(), &mut self.jobs, &mut self.notices);
+        self.desk.update(&mut self.notices);
+        self.stager.update(self.desk.document.project(), &mut self.jobs, &mut self.notices);
         if let Some(garment) = &self.stager.stage.garment {
             self.selection.retain(|id| garment.panels.iter().any(|panel| panel.id == id));
         }
@@ -420,10 +424,10 @@ impl eframe::App for App {
         let menu = Menu {
             commands: &all,
             can_run: &|wanted| self.can_run(wanted),
-            undo: self.document.undo_name(),
-            redo: self.document.redo_name(),
+            undo: self.desk.document.undo_name(),
+            redo: self.desk.document.redo_name(),
             title: &title,
-            changed: self.document.is_changed(),
+            changed: self.desk.document.is_changed(),
         };
         let bar = egui::Panel::top("menu").show(ui, |ui| menu.show(ui)).inner;
         wanted = wanted.or(bar);
@@ -436,6 +440,11 @@ impl eframe::App for App {
             self.selection.panels.clear();
         }
         toasts::show(ui, &self.notices);
+        self.question(ui);
         self.leave(ui);
+    }
+
+    fn on_exit(&mut self) {
+        self.desk.finish();
     }
 }

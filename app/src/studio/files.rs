@@ -9,10 +9,12 @@ use studio_plugin::{Job, Jobs};
 use super::stager::{Kind, kind};
 
 /// What a dialog is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Purpose {
     Open,
     Save,
+    /// Finding a file that is missing.
+    Find(PathBuf),
 }
 
 /// A dialog that is open, on a thread of its own: the window goes on.
@@ -25,10 +27,11 @@ pub(super) struct Dialog {
 impl Dialog {
     pub(super) fn open(purpose: Purpose, name: &str, jobs: &mut Jobs) -> Self {
         let name = name.to_owned();
-        let title = if purpose == Purpose::Open { "Choosing a file to open" } else { "Choosing where to save" };
-        let job = jobs.start(title, move |_| {
+        let asked = purpose.clone();
+        let job = jobs.start("Choosing a file", move |_| {
             let dialog = rfd::FileDialog::new();
-            Ok(match purpose {
+            Ok(match asked {
+                Purpose::Find(missing) => dialog.set_title(format!("Where is {}?", missing.display())).pick_file(),
                 Purpose::Open => dialog
                     .add_filter("All that can be opened", &["amcproj", "glb", "gltf", "obj", "ktx2"])
                     .add_filter("Projects", &["amcproj"])

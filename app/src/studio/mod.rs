@@ -2,11 +2,13 @@
 
 mod app;
 mod commands;
+mod desk;
 mod dock;
 mod files;
 mod menu;
 mod palette;
 mod panes;
+mod questions;
 mod stager;
 mod texts;
 mod theme;
@@ -17,6 +19,8 @@ use std::path::PathBuf;
 use amc_core::{Error, Result};
 use eframe::egui;
 use studio_plugin::{Plugin, Registry};
+
+use crate::storage::data_folder;
 
 pub use app::App;
 
@@ -35,6 +39,7 @@ pub use app::App;
 pub struct Studio {
     plugins: Registry,
     files: Vec<PathBuf>,
+    folder: Option<PathBuf>,
 }
 
 impl Default for Studio {
@@ -48,7 +53,7 @@ impl Studio {
     pub fn new() -> Self {
         let mut plugins = Registry::default();
         panes::register(&mut plugins);
-        Self { plugins, files: Vec::new() }
+        Self { plugins, files: Vec::new(), folder: data_folder() }
     }
 
     /// With one plugin more.
@@ -62,6 +67,13 @@ impl Studio {
     #[must_use]
     pub fn open(mut self, files: impl IntoIterator<Item = PathBuf>) -> Self {
         self.files.extend(files);
+        self
+    }
+
+    /// Keeping recovery files, locks and settings in `folder`, not where the system has them.
+    #[must_use]
+    pub fn keeping_in(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.folder = Some(folder.into());
         self
     }
 
@@ -89,6 +101,6 @@ impl Studio {
 
     /// The application itself, for a window that somebody else opens.
     pub fn into_app(self, creation: &eframe::CreationContext<'_>) -> App {
-        App::new(self.plugins, self.files, creation)
+        App::new(self.plugins, self.files, self.folder, creation)
     }
 }

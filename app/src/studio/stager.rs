@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use amc_core::amc::Amc;
 use amc_core::direction::{self, Direction};
-use amc_core::mesh::{Garment, Unit};
+use amc_core::mesh::{Garment, Picker, Unit};
 use amc_core::render::{Cloth, Drawing};
 use amc_core::{Progress, Result};
 use glam::Vec2;
@@ -14,7 +14,6 @@ use studio_plugin::document::{Asset, FabricId, Project};
 use studio_plugin::{Job, Jobs, Notices, Stage};
 
 use crate::scene::{load_fabric, load_garment, vertex_occlusion};
-use crate::viewport::Picker;
 
 /// Keeps what is drawn in step with the document.
 #[derive(Debug, Default)]
@@ -163,7 +162,8 @@ impl Loaded {
     fn new(asset: &Asset, progress: &Progress<'_>) -> Result<Self> {
         let garment = load_garment(&path(asset), Unit::Metre)?;
         let occlusion = vertex_occlusion(&garment, progress)?;
-        let picker = Picker::new(&garment);
+        let plain = Drawing::new(&garment, &garment.normals, None, Vec::new(), |_| Cloth::Plain)?;
+        let picker = Picker::new(&plain)?;
         Ok(Self { garment: Arc::new(garment), occlusion: Arc::new(occlusion), picker: Arc::new(picker) })
     }
 }
