@@ -143,8 +143,9 @@ impl<'a> Solver<'a> {
             thread.solve(points, inverse_mass);
         }
         self.layers.untangle(points, inverse_mass, step);
-        self.layers.solve(points, &mut self.before, inverse_mass, self.model.friction, step);
+        let touches = self.layers.solve(points, &self.before, inverse_mass, self.model.friction, step);
         self.rest_on_body();
+        touches.iter().for_each(|touch| touch.calm(&mut self.velocities, &self.model.inverse_mass));
     }
 
     /// Moves by the velocity of the last substep, after gravity and drag.
