@@ -23,6 +23,17 @@ pub enum Figure {
     Ball,
 }
 
+impl Figure {
+    /// Its limbs.
+    #[must_use]
+    pub fn limbs(self) -> Vec<Limb> {
+        match self {
+            Self::Standing => standing::limbs(),
+            Self::Ball => Vec::new(),
+        }
+    }
+}
+
 /// The centre of [`Figure::Ball`], metres.
 pub const BALL_CENTRE: DVec3 = DVec3::new(0.0, 1.0, 0.0);
 /// The radius of [`Figure::Ball`], metres.
@@ -65,12 +76,11 @@ impl Body {
     /// The body of a figure. The standing adult is sampled once on a grid of 1 cm, about half a second's work.
     #[must_use]
     pub fn new(figure: Figure) -> Self {
-        match figure {
-            Figure::Standing => {
-                Self { field: Field::sampled(&standing::SPACE, standing::distance), limbs: standing::limbs() }
-            }
-            Figure::Ball => Self { field: Field::ball(BALL_CENTRE, BALL_RADIUS), limbs: Vec::new() },
-        }
+        let field = match figure {
+            Figure::Standing => Field::sampled(&standing::SPACE, standing::distance),
+            Figure::Ball => Field::ball(BALL_CENTRE, BALL_RADIUS),
+        };
+        Self { field, limbs: figure.limbs() }
     }
 
     /// Distance from the surface, metres, negative inside; close to the true one near the surface, of the right sign

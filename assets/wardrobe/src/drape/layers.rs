@@ -113,8 +113,8 @@ const CELL_PER_EDGE: f64 = 1.2;
 const LEAST_APART: f64 = 0.2;
 /// Layers that are too near are pushed apart no faster, metres per second.
 const MOST_PUSH: f64 = 0.3;
-/// The share of what layers are too near by that they are pushed apart in a step. All at once, layers that have no room would throw each
-/// other to and fro for ever.
+/// The share of what sewn layers are too near by that they are pushed apart in a step. All at once, layers that have no room would throw
+/// each other to and fro for ever.
 const PUSHED_SHARE: f64 = 0.1;
 
 impl Layers {
@@ -290,9 +290,10 @@ impl Layers {
         } else {
             self.near.pairs.par_iter().with_min_len(1024).filter(touching).collect()
         };
+        let share = if self.sewing { 1.0 } else { PUSHED_SHARE };
         let resolve = |pair: &Pair| {
             let touch = touch(pair, points)?;
-            touch.resolve(points, before, inverse_mass, friction, MOST_PUSH * step);
+            touch.resolve(points, before, inverse_mass, friction, (share, MOST_PUSH * step));
             Some(touch)
         };
         active.into_iter().filter_map(resolve).collect()
@@ -309,7 +310,7 @@ pub(super) struct Touch {
 }
 
 impl Touch {
-    /// Takes back what brought the four nearer in this step, pushes them apart by a share of what is left, `most_push` at most,
+    /// Takes back what brought the four nearer in this step, pushes them apart by a `share` of what is left, `most_push` at most,
     /// metres, and takes back sliding up to the friction's share (Mueller and others 2007; Macklin and others 2014, section 6.1).
     fn resolve(
         &self,
@@ -317,7 +318,7 @@ impl Touch {
         before: &[DVec3],
         inverse_mass: &[f64],
         friction: f64,
-        most_push: f64,
+        (share, most_push): (f64, f64),
     ) {
         let w = self.particles.map(|particle| inverse_mass[particle as usize]);
         let weight = self.weight(&w);
@@ -326,7 +327,7 @@ impl Touch {
         }
         let moved = self.moved(points, before);
         let nearer = (-moved.dot(self.normal)).clamp(0.0, self.depth);
-        let push = nearer + (PUSHED_SHARE * (self.depth - nearer)).min(most_push);
+        let push = nearer + (share * (self.depth - nearer)).min(most_push);
         self.shift(points, &w, self.normal * (push / weight));
         let slid = moved.reject_from_normalized(self.normal);
         let length = slid.length();
@@ -337,17 +338,19 @@ impl Touch {
     }
 
     /// What touches moves neither nearer nor, by having been pushed, apart: takes that from the velocities (Mueller and others 2020,
-    /// "Detailed rigid body simulation with extended position based dynamics", section 3.6, without bouncing).
-    pub(super) fn calm(&self, velocities: &mut [DVec3], inverse_mass: &[f64]) {
+    /// "Detailed rigid body simulation with extended position based dynamics", section 3.6, without bouncing). Cloth that is `tangled` has to get back through itself: there
+    /// only what moves apart is held.
+    pub(super) fn calm(&self, velocities: &mut [DVec3], inverse_mass: &[f64], tangled: bool) {
         let w = self.particles.map(|particle| inverse_mass[particle as usize]);
         let weight = self.weight(&w);
         let apart: DVec3 =
             self.particles.iter().zip(self.weights).map(|(p, a)| velocities[*p as usize] * a).sum();
-        if weight > 0.0 {
-            let speed = apart.dot(self.normal);
-            for ((particle, a), w) in self.particles.iter().zip(self.weights).zip(w) {
-                velocities[*particle as usize] -= self.normal * (speed / weight * w * a);
-            }
+        let speed = apart.dot(self.normal);
+        if weight <= 0.0 || (tangled && speed < 0.0) {
+            return;
+        }
+        for ((particle, a), w) in self.particles.iter().zip(self.weights).zip(w) {
+            velocities[*particle as usize] -= self.normal * (speed / weight * w * a);
         }
     }
 

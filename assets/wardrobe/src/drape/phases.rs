@@ -122,6 +122,19 @@ pub(super) fn layer(model: &Model, options: &Options) -> f64 {
     options.layer.max(LEAST_LAYER * model.edge_length).min(MOST_LAYER * model.edge_length)
 }
 
+/// A garment without motion. `sewn`: per particle, what it is once all seams are sewn.
+pub(super) fn solver<'a>(
+    model: &'a Model,
+    sewn: Vec<u32>,
+    start: &[Vec<DVec3>],
+    body: &'a Body,
+    options: &Options,
+) -> Solver<'a> {
+    let layers = Layers::new(model, sewn, layer(model, options));
+    let step = options.step * model.edge_length;
+    Solver::new(model, body, &model.gather(start), options.margin, layers, step)
+}
+
 /// A garment whose seams are welded, without motion.
 fn sewn<'a>(
     model: &'a Model,
@@ -130,13 +143,10 @@ fn sewn<'a>(
     body: &'a Body,
     options: &Options,
 ) -> Solver<'a> {
-    let thickness = layer(model, options);
-    let layers = Layers::new(model, (0..model.mass.len() as u32).collect(), thickness);
-    let step = options.step * model.edge_length;
-    let mut solver = Solver::new(model, body, &model.gather(start), options.margin, layers, step);
+    let mut solver = solver(model, (0..model.mass.len() as u32).collect(), start, body, options);
     let buttons =
         pairs(garment, JoinKind::Layered).map(|(one, other)| [model.particle(one), model.particle(other)]);
-    solver.threads = buttons.map(|ends| Thread { ends, most: thickness }).collect();
+    solver.threads = buttons.map(|ends| Thread { ends, most: layer(model, options) }).collect();
     solver
 }
 
@@ -179,8 +189,12 @@ fn settle_and_drape(
         };
         settling.run(&mut solver, options, &mut rest, ramp, progress)?;
     }
-    let seconds = if coarsest { options.falling } else { options.relaxing * model.edge_length };
-    let falling = Phase { stage: "coming to rest", seconds, until_still: true };
+    let (stage, seconds) = if coarsest {
+        ("falling", options.falling)
+    } else {
+        ("coming to rest, finer", options.relaxing * model.edge_length)
+    };
+    let falling = Phase { stage, seconds, until_still: true };
     falling.run(&mut solver, options, &mut rest, |_| conditions(options), progress)?;
     Ok((Draped { positions: model.scatter(&solver.points.to_vec()) }, rest))
 }

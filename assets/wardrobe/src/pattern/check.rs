@@ -234,18 +234,10 @@ fn inner_lines(piece: &WholePiece, polygon: &[DVec2]) -> Result<()> {
     }
 }
 
-/// The limbs of a figure: see [`Figure`].
-fn limbs(figure: Figure) -> &'static [&'static str] {
-    match figure {
-        Figure::Standing => &["torso", "neck", "left arm", "right arm", "left leg", "right leg"],
-        Figure::Ball => &[],
-    }
-}
-
 fn placement(placement: &Placement, figure: Figure) -> Result<()> {
     let (numbers, lengths): (Vec<f64>, Vec<f64>) = match placement {
         Placement::Around { limb, point, along, angle_deg, radius, flare } => {
-            let limbs = limbs(figure);
+            let limbs: Vec<&str> = figure.limbs().iter().map(|limb| limb.name).collect();
             if !limbs.contains(&limb.as_str()) {
                 return Err(Error::invalid(format!(
                     "it is placed round '{limb}'; the figure has {}",
