@@ -270,6 +270,11 @@ impl Layers {
         !self.near.tangles.is_empty()
     }
 
+    /// Whether seams are still to close.
+    pub(super) fn closing(&self) -> bool {
+        self.sewing
+    }
+
     /// Draws apart what has gone through itself; `step` in seconds.
     pub(super) fn untangle(&self, points: &Points, inverse_mass: &[f64], step: f64) {
         self.near.tangles.iter().for_each(|tangle| tangle.pull(points, inverse_mass, step));
@@ -338,8 +343,8 @@ impl Touch {
     }
 
     /// What touches moves neither nearer nor, by having been pushed, apart: takes that from the velocities (Mueller and others 2020,
-    /// "Detailed rigid body simulation with extended position based dynamics", section 3.6, without bouncing). Cloth that is `tangled` has to get back through itself: there
-    /// only what moves apart is held.
+    /// "Detailed rigid body simulation with extended position based dynamics", section 3.6, without bouncing). Cloth that is
+    /// `tangled` while its seams close has to get back through itself: there only what moves apart is held.
     pub(super) fn calm(&self, velocities: &mut [DVec3], inverse_mass: &[f64], tangled: bool) {
         let w = self.particles.map(|particle| inverse_mass[particle as usize]);
         let weight = self.weight(&w);

@@ -145,7 +145,7 @@ impl<'a> Solver<'a> {
         self.layers.untangle(points, inverse_mass, step);
         let touches = self.layers.solve(points, &self.before, inverse_mass, self.model.friction, step);
         self.rest_on_body();
-        let tangled = self.layers.tangled();
+        let tangled = self.layers.closing() && self.layers.tangled();
         touches.iter().for_each(|touch| touch.calm(&mut self.velocities, &self.model.inverse_mass, tangled));
     }
 
