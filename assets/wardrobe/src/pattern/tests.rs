@@ -6,28 +6,17 @@ use amc_core::ErrorKind;
 use serde_json::{Value, json};
 
 use super::*;
-use crate::collection::COLLECTION;
+use crate::collection::{COLLECTION, Entry};
 
 /// Spoils a part of a pattern.
 type Change = fn(&mut Value);
-
-/// The patterns that this crate ships.
-pub(crate) const SHIPPED: [&str; COLLECTION.len()] = {
-    let mut names = [""; COLLECTION.len()];
-    let mut k = 0;
-    while k < names.len() {
-        names[k] = COLLECTION[k].name;
-        k += 1;
-    }
-    names
-};
 
 fn file(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("patterns/{name}.json"))
 }
 
 pub(crate) fn shipped(name: &str) -> Pattern {
-    Pattern::read(&file(name)).unwrap()
+    Entry::named(name).unwrap().pattern().unwrap()
 }
 
 /// A pattern on the ball of rectangles that are 0.4 m by 0.3 m, changed by `change`.
@@ -250,7 +239,7 @@ fn mutate(value: &mut Value, numbers: &mut Numbers) {
 fn spoilt_patterns_are_refused_or_cut() {
     let mut numbers = Numbers(7);
     let (mut cut, mut refused) = (0, 0);
-    for name in SHIPPED {
+    for name in COLLECTION.map(|entry| entry.name) {
         let text = std::fs::read_to_string(file(name)).unwrap();
         for _ in 0..100 {
             let mut value: Value = serde_json::from_str(&text).unwrap();
@@ -276,7 +265,7 @@ fn spoilt_patterns_are_refused_or_cut() {
 fn spoilt_bytes_are_refused_in_one_line_or_cut() {
     let mut numbers = Numbers(11);
     let mut refused = 0;
-    for name in SHIPPED {
+    for name in COLLECTION.map(|entry| entry.name) {
         let bytes = std::fs::read(file(name)).unwrap();
         for _ in 0..60 {
             let mut spoilt = bytes.clone();
