@@ -73,7 +73,7 @@ impl Plugin for Panels {
             let look = studio.document.project().look_of(panel);
             ui.horizontal(|ui| {
                 let mut visible = look.visible;
-                let eye = ui.checkbox(&mut visible, ()).on_hover_text("Shown in the view");
+                let eye = ui.checkbox(&mut visible, "").on_hover_text("Shown in the view");
                 eye.widget_info(|| {
                     egui::WidgetInfo::selected(egui::Role::CheckBox, true, visible, format!("Show {}", panel.name))
                 });
