@@ -64,8 +64,8 @@ fn a_project_written_by_hand_may_leave_out_almost_everything() {
     let text = r#"{"version": 1, "garment": "coat.obj", "fabrics": [{"id": 3, "asset": "silk.amc.ktx2"}],
         "panels": {"front": {}, "back": {"direction": {"angle_deg": 180}}}}"#;
     let project = parse(text.as_bytes(), None).unwrap().project;
-    assert_eq!((project.garment, project.fabrics[0].name.as_str()), (Asset::file("coat.obj"), "silk"));
-    let look = Project { garment: Asset::file("a"), ..project.clone() }.look("front");
+    assert_eq!((&project.garment, &*project.fabrics[0].name), (&Asset::file("coat.obj"), "silk"));
+    let look = project.look("front");
     assert_eq!((look.fabric, look.direction, look.visible), (Some(FabricId::new(3)), None, true));
     assert_eq!(project.look("back").direction.unwrap().angle, std::f32::consts::PI);
 }
@@ -121,7 +121,7 @@ fn faults_have_a_place_and_a_reason() {
 #[test]
 fn what_could_not_be_read_again_is_not_written() {
     let mut project = Project::default();
-    for k in 0..20_000 {
+    for k in 0..17_000 {
         project.panels.insert(format!("{k:01000}"), Default::default());
     }
     project.check().unwrap();
