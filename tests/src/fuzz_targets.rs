@@ -1,12 +1,15 @@
 //! What a fuzzer feeds. Each target takes any bytes and must end without a panic and without an allocation that the
 //! bytes do not justify. The fuzz crate drives them with new bytes; the test `crashes` with those that once failed.
 
+use std::path::Path;
+
 use amc_core::amc::Amc;
 use amc_core::capture::Session;
 use amc_core::mesh::{Garment, Mesh};
 use amc_core::reflectance::{self as reflectances, Lighting};
 use amc_core::render::Camera;
 use amc_core::{exchange, image::decode, mesh};
+use amc_studio::project::{encode, parse};
 use wardrobe::cut::cut;
 use wardrobe::pattern::Pattern;
 
@@ -14,7 +17,7 @@ use wardrobe::pattern::Pattern;
 pub type Target = (&'static str, fn(&[u8]));
 
 /// All targets. A parser is one line here and one file in the fuzz crate.
-pub const TARGETS: [Target; 11] = [
+pub const TARGETS: [Target; 12] = [
     ("ktx2", ktx2),
     ("gltf", gltf),
     ("gltf_beside", gltf_beside),
@@ -26,6 +29,7 @@ pub const TARGETS: [Target; 11] = [
     ("exchange", exchanged),
     ("slices", slices),
     ("pattern", pattern),
+    ("project", project),
 ];
 
 /// AMC files.
@@ -166,5 +170,19 @@ pub fn pattern(bytes: &[u8]) {
             let count = piece.flat.len() as u32;
             assert!(piece.triangles.as_flattened().iter().all(|&corner| corner < count));
         }
+    }
+}
+
+/// `.amcproj`: whatever is let through can be saved and read again.
+pub fn project(bytes: &[u8]) {
+    let folder = Some(Path::new("/clothes/coat"));
+    if let Ok(read) = parse(bytes, folder) {
+        read.project.check().expect("a project that was read is right");
+        let written = encode(&read.project, &read.unknown, folder).expect("it can be saved");
+        let again = parse(&written, folder).expect("what was saved can be read");
+        assert!(
+            again.project == read.project && again.unknown == read.unknown,
+            "something was lost on the way"
+        );
     }
 }

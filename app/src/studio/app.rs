@@ -18,6 +18,7 @@ use super::questions::{self, OfMissing, OfRecovery};
 use super::stager::Stager;
 use super::theme::{self, STEP, Tokens};
 use super::{texts, toasts};
+use crate::storage::Folders;
 use crate::viewport::{Viewport, ViewportInput};
 
 /// The studio's window.
@@ -50,7 +51,7 @@ impl App {
     pub(super) fn new(
         registry: Registry,
         files: Vec<PathBuf>,
-        folder: Option<PathBuf>,
+        folders: Option<Folders>,
         creation: &eframe::CreationContext<'_>,
     ) -> Self {
         theme::apply(&creation.egui_ctx);
@@ -58,7 +59,7 @@ impl App {
         let render_state = creation.wgpu_render_state.as_ref();
         let mut notices = Notices::default();
         let mut app = Self {
-            desk: Desk::new(folder, &mut notices),
+            desk: Desk::new(folders, &mut notices),
             selection: Selection::default(),
             jobs: Jobs::new(move || context.request_repaint()),
             notices,

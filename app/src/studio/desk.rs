@@ -10,6 +10,7 @@ use studio_plugin::{Job, Jobs, Notices};
 use crate::project::{
     self, Autosave, Claim, Disk, Missing, Opened, ProjectLock, Recoverable, System, Unknown, recent,
 };
+use crate::storage::Folders;
 
 /// The document, where it belongs, and what watches over it.
 #[derive(Debug)]
@@ -24,8 +25,8 @@ pub(super) struct Desk {
     /// Projects opened or saved lately, the latest first.
     pub(super) recent: Vec<PathBuf>,
     disk: Arc<dyn Disk>,
-    /// Where what is no project is kept; none: the system names no such folder.
-    folder: Option<PathBuf>,
+    /// Where what is no project is kept; none: the system names no such folders.
+    folders: Option<Folders>,
     unknown: Arc<Unknown>,
     lock: Option<ProjectLock>,
     autosave: Option<Autosave>,
@@ -36,8 +37,8 @@ pub(super) struct Desk {
 }
 
 impl Desk {
-    /// With the default project. `folder`: where recovery files, locks and settings are kept.
-    pub(super) fn new(folder: Option<PathBuf>, notices: &mut Notices) -> Self {
+    /// With the default project. `folders`: where recovery files, locks and settings are kept.
+    pub(super) fn new(folders: Option<Folders>, notices: &mut Notices) -> Self {
         let disk: Arc<dyn Disk> = Arc::new(System);
         let mut desk = Self {
             document: Document::new(Project::default()),
@@ -46,7 +47,7 @@ impl Desk {
             missing: Vec::new(),
             recent: Vec::new(),
             disk,
-            folder,
+            folders,
             unknown: Arc::default(),
             lock: None,
             autosave: None,
@@ -54,27 +55,26 @@ impl Desk {
             opening: None,
             saving: None,
         };
-        match desk.folder.clone() {
-            Some(folder) => desk.watch(&folder, notices),
+        match desk.folders.clone() {
+            Some(folders) => desk.watch(&folders, notices),
             None => notices.note("the system names no folder for settings: unsaved work is not kept"),
         }
         desk
     }
 
-    fn watch(&mut self, folder: &Path, notices: &mut Notices) {
-        let recovery = folder.join("recovery");
-        match project::recoverable(self.disk.as_ref(), &recovery) {
+    fn watch(&mut self, folders: &Folders, notices: &mut Notices) {
+        match project::recoverable(self.disk.as_ref(), &folders.recovery) {
             Ok(found) => {
                 found.notices.iter().for_each(|notice| notices.note(notice));
                 self.recoverable = found.works;
             }
             Err(error) => notices.failed(error),
         }
-        match Autosave::start(&recovery, Arc::clone(&self.disk)) {
+        match Autosave::start(&folders.recovery, Arc::clone(&self.disk)) {
             Ok(autosave) => self.autosave = Some(autosave),
             Err(error) => notices.failed(format!("unsaved work is not kept: {error}")),
         }
-        let recent = recent::list(self.disk.as_ref(), folder);
+        let recent = recent::list(self.disk.as_ref(), &folders.settings);
         recent.notice.iter().for_each(|notice| notices.note(notice));
         self.recent = recent.value;
     }
@@ -208,21 +208,21 @@ impl Desk {
     fn belongs_to(&mut self, file: Option<PathBuf>, notices: &mut Notices) {
         let same = self.lock.is_some() && self.file == file;
         self.file = file;
-        let (Some(file), Some(folder)) = (&self.file, &self.folder) else { return };
+        let (Some(file), Some(folders)) = (&self.file, &self.folders) else { return };
         if !same {
             // Let go first: it may be the same file by another name.
             self.lock = None;
-            match ProjectLock::claim(&folder.join("locks"), file) {
+            match ProjectLock::claim(&folders.locks, file) {
                 Ok(Claim::Ours(lock)) => self.lock = Some(lock),
                 Ok(Claim::Theirs { process }) => notices.failed(already_open(file, process)),
                 Err(error) => notices.note(format!("another window would not be told: {error}")),
             }
         }
-        let remembered: Result<()> = recent::add(self.disk.as_ref(), folder, file);
+        let remembered: Result<()> = recent::add(self.disk.as_ref(), &folders.settings, file);
         if let Err(error) = remembered {
             notices.failed(error);
         }
-        self.recent = recent::list(self.disk.as_ref(), folder).value;
+        self.recent = recent::list(self.disk.as_ref(), &folders.settings).value;
     }
 
     fn tell_autosave(&mut self) {

@@ -20,7 +20,7 @@ use amc_core::{Error, Result};
 use eframe::egui;
 use studio_plugin::{Plugin, Registry};
 
-use crate::storage::data_folder;
+use crate::storage::Folders;
 
 pub use app::App;
 
@@ -39,7 +39,7 @@ pub use app::App;
 pub struct Studio {
     plugins: Registry,
     files: Vec<PathBuf>,
-    folder: Option<PathBuf>,
+    folders: Option<Folders>,
 }
 
 impl Default for Studio {
@@ -53,7 +53,7 @@ impl Studio {
     pub fn new() -> Self {
         let mut plugins = Registry::default();
         panes::register(&mut plugins);
-        Self { plugins, files: Vec::new(), folder: data_folder() }
+        Self { plugins, files: Vec::new(), folders: Folders::of_the_person() }
     }
 
     /// With one plugin more.
@@ -73,7 +73,7 @@ impl Studio {
     /// Keeping recovery files, locks and settings in `folder`, not where the system has them.
     #[must_use]
     pub fn keeping_in(mut self, folder: impl Into<PathBuf>) -> Self {
-        self.folder = Some(folder.into());
+        self.folders = Some(Folders::in_folder(&folder.into()));
         self
     }
 
@@ -101,6 +101,6 @@ impl Studio {
 
     /// The application itself, for a window that somebody else opens.
     pub fn into_app(self, creation: &eframe::CreationContext<'_>) -> App {
-        App::new(self.plugins, self.files, self.folder, creation)
+        App::new(self.plugins, self.files, self.folders, creation)
     }
 }

@@ -84,8 +84,9 @@ impl Asset {
     fn check(&self, what: &str, prefixes: &[&str]) -> Result<()> {
         match self {
             Self::Bundled(name) => {
-                let is_named = |prefix: &&str| name.strip_prefix(**prefix).is_some_and(|rest| !rest.is_empty());
-                if !prefixes.iter().any(|prefix| is_named(prefix)) {
+                let is_named =
+                    |prefix: &&str| name.strip_prefix(*prefix).is_some_and(|rest| !rest.is_empty());
+                if !prefixes.iter().any(is_named) {
                     return Err(Error::invalid(format!(
                         "'{name}' is no bundled {what}: those are named {}NAME",
                         prefixes.join("NAME or ")

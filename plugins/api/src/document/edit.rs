@@ -66,7 +66,9 @@ impl Edit {
             Self::SetGarment(garment) => project.garment = garment,
             Self::AddFabric(fabric) => project.fabrics.push(fabric),
             Self::RemoveFabric(id) => remove_fabric(project, id)?,
-            Self::SetFabric { panels, fabric } => choose(project, panels, |choice| choice.fabric = Some(fabric)),
+            Self::SetFabric { panels, fabric } => {
+                choose(project, panels, |choice| choice.fabric = Some(fabric))
+            }
             Self::SetDirection { panels, direction } => {
                 choose(project, panels, |choice| choice.direction = direction);
             }
@@ -76,7 +78,9 @@ impl Edit {
                     choose(project, vec![panel], |choice| choice.direction = Some(turned));
                 }
             }
-            Self::SetVisible { panels, visible } => choose(project, panels, |choice| choice.visible = visible),
+            Self::SetVisible { panels, visible } => {
+                choose(project, panels, |choice| choice.visible = visible)
+            }
             Self::SetNotes(notes) => project.notes = notes,
             Self::Relocate { old, new } => {
                 let mut uses = project.assets_mut().filter(|asset| asset.path() == Some(&old)).peekable();

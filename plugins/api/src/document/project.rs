@@ -199,9 +199,7 @@ impl Project {
     pub(super) fn bytes(&self) -> usize {
         let asset = |asset: &Asset| match asset {
             Asset::Bundled(name) => name.len(),
-            Asset::File { path, content } => {
-                path.as_os_str().len() + content.as_ref().map_or(0, String::len)
-            }
+            Asset::File { path, content } => path.as_os_str().len() + content.as_ref().map_or(0, String::len),
         };
         let fabrics = self.fabrics.iter().map(|fabric| size_of::<FabricInUse>() + fabric.name.len());
         let entry = size_of::<(String, PanelChoice)>();

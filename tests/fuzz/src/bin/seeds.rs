@@ -31,6 +31,16 @@ const CAMERAS: [&str; 2] = [
     r#"{"world_to_view": [0,1,0,0, -1,0,0,0, 0,0,1,0, 0,0,0,1], "projection": {"orthographic": {"half_height": 1.5}}}"#,
 ];
 
+/// Version 0, and version 1 with something of everything.
+const PROJECTS: [&str; 2] = [
+    r#"{"garment": "shape:sheet", "fabric": "cloth/silk.amc.ktx2", "for": "Ada"}"#,
+    r#"{"version": 1, "garment": {"path": "coat.glb", "content": "0123456789abcdef0123456789abcdef"},
+    "fabrics": [{"id": 0, "name": "Satin", "asset": "fabric:satin"}, {"id": 7, "asset": {"path": "../silk.amc.ktx2"}}],
+    "panels": {"front": {"fabric": 7, "direction": {"source": "yarn", "angle_deg": 9e1}, "visible": false},
+    "back": {"fabric": null, "direction": {"source": {"field": {"around": {"origin": [0, 1, 0], "direction": [0, 0, 1]}}},
+    "angle_deg": -1.5}, "hem": [1]}}, "view": {}, "notes": "two\nlines", "later": {"a": null}}"#,
+];
+
 const LIGHTS: &str = r#"{"version": 1, "ambient": [0.1, 0.1, 0.1], "lights": [{"towards": [0, 1, 2], "irradiance": [1, 2.5, 3]}]}"#;
 
 /// A node with a turned child; quantised positions of one triangle, as a strip with a sparse accessor.
@@ -82,6 +92,9 @@ fn texts(satin: &str) -> Outcome {
     put("pattern", "scarf.json", include_bytes!("../../../../assets/wardrobe/patterns/scarf.json"))?;
     put("reflectance", "satin.json", satin.as_bytes())?;
     put("reflectance", "lights.json", LIGHTS.as_bytes())?;
+    for (k, project) in PROJECTS.iter().enumerate() {
+        put("project", &format!("{k}.amcproj"), project.as_bytes())?;
+    }
     CAMERAS
         .iter()
         .enumerate()

@@ -80,9 +80,15 @@ impl Plain {
             2 => {
                 let id = random.below(6) as u32;
                 let edit = Edit::RemoveFabric(FabricId::new(id));
-                let Some(place) = self.fabrics.iter().position(|&known| known == id) else { return (edit, None) };
+                let Some(place) = self.fabrics.iter().position(|&known| known == id) else {
+                    return (edit, None);
+                };
                 after.fabrics.remove(place);
-                after.panels.iter_mut().filter(|panel| panel.0 == i64::from(id)).for_each(|panel| panel.0 = -2);
+                after
+                    .panels
+                    .iter_mut()
+                    .filter(|panel| panel.0 == i64::from(id))
+                    .for_each(|panel| panel.0 = -2);
                 edit
             }
             3 => {
@@ -165,7 +171,11 @@ impl Model {
 fn agree(document: &Document, model: &Model, k: usize) {
     assert!(model.now().is(document.project()), "{k}: {:?} is not {:?}", document.project(), model.now());
     document.project().check().unwrap();
-    assert_eq!((document.position(), document.steps().count()), (model.position, model.states.len() - 1), "{k}");
+    assert_eq!(
+        (document.position(), document.steps().count()),
+        (model.position, model.states.len() - 1),
+        "{k}"
+    );
     assert_eq!(document.undo_name().is_some(), model.position > 0);
     assert_eq!(document.undo_name(), document.steps().nth(model.position.wrapping_sub(1)));
     assert_eq!(document.redo_name(), document.steps().nth(model.position));

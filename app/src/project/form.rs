@@ -1,0 +1,167 @@
+//! How a project looks in its file, version 1. Directions are in degrees there, as people read and write it.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use amc_core::Result;
+use amc_core::direction::{Direction, Source};
+use serde::{Deserialize, Deserializer, Serialize};
+use studio_plugin::document::{Asset, FabricId, FabricInUse, PanelChoice, Project, ViewSettings};
+
+use super::paths;
+
+/// A `.amcproj`. Every key is always written; any but the version may be left out.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(default)]
+pub(super) struct ProjectForm {
+    version: u32,
+    garment: AssetForm,
+    fabrics: Vec<FabricForm>,
+    panels: BTreeMap<String, PanelForm>,
+    view: ViewSettings,
+    notes: String,
+}
+
+impl Default for ProjectForm {
+    fn default() -> Self {
+        let Project { garment, view, notes, .. } = Project::default();
+        let garment = AssetForm::Named(match garment {
+            Asset::Bundled(name) => name,
+            Asset::File { .. } => String::new(),
+        });
+        Self { version: super::VERSION, garment, fabrics: Vec::new(), panels: BTreeMap::new(), view, notes }
+    }
+}
+
+/// A bundled asset by its name, a file by its path and what it holds.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(untagged, expecting = "an asset is a name in quotes or {\"path\": ..., \"content\": ...}")]
+enum AssetForm {
+    Named(String),
+    File {
+        path: String,
+        #[serde(default)]
+        content: Option<String>,
+    },
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct FabricForm {
+    id: FabricId,
+    /// After its asset, where it is left out.
+    #[serde(default)]
+    name: String,
+    asset: AssetForm,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct PanelForm {
+    /// Left out: as by default. Null: plain grey.
+    #[serde(default, deserialize_with = "present", skip_serializing_if = "Option::is_none")]
+    fabric: Option<Option<FabricId>>,
+    #[serde(default)]
+    direction: Option<DirectionForm>,
+    #[serde(default = "yes")]
+    visible: bool,
+}
+
+/// Null is a value, too.
+fn present<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Option<FabricId>>, D::Error> {
+    Option::deserialize(from).map(Some)
+}
+
+fn yes() -> bool {
+    true
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct DirectionForm {
+    #[serde(default)]
+    source: Source,
+    angle_deg: f64,
+}
+
+impl ProjectForm {
+    /// `project` as it is written in `folder`, or apart from any.
+    pub(super) fn new(project: &Project, folder: Option<&Path>) -> Result<Self> {
+        let fabrics = project.fabrics.iter().map(|fabric| {
+            let FabricInUse { id, asset, name } = fabric;
+            Ok(FabricForm { id: *id, name: name.clone(), asset: AssetForm::new(asset, folder)? })
+        });
+        let panels = project.panels.iter().map(|(id, choice)| {
+            let direction = choice.direction.map(DirectionForm::new);
+            (id.clone(), PanelForm { fabric: choice.fabric, direction, visible: choice.visible })
+        });
+        Ok(Self {
+            version: super::VERSION,
+            garment: AssetForm::new(&project.garment, folder)?,
+            fabrics: fabrics.collect::<Result<_>>()?,
+            panels: panels.collect(),
+            view: project.view.clone(),
+            notes: project.notes.clone(),
+        })
+    }
+
+    /// The project that is meant, unchecked, in `folder`.
+    pub(super) fn into_project(self, folder: Option<&Path>) -> Project {
+        let fabrics = self.fabrics.into_iter().map(|FabricForm { id, name, asset }| {
+            let asset = asset.into_asset(folder);
+            let name = if name.is_empty() { asset.name() } else { name };
+            FabricInUse { id, asset, name }
+        });
+        let panels = self.panels.into_iter().map(|(id, PanelForm { fabric, direction, visible })| {
+            let direction = direction.map(DirectionForm::into_direction);
+            (id, PanelChoice { fabric, direction, visible })
+        });
+        Project {
+            garment: self.garment.into_asset(folder),
+            fabrics: fabrics.collect(),
+            panels: panels.collect(),
+            view: self.view,
+            notes: self.notes,
+        }
+    }
+}
+
+impl AssetForm {
+    fn new(asset: &Asset, folder: Option<&Path>) -> Result<Self> {
+        Ok(match asset {
+            Asset::Bundled(name) => Self::Named(name.clone()),
+            Asset::File { path, content } => {
+                Self::File { path: paths::written(path, folder)?, content: content.clone() }
+            }
+        })
+    }
+
+    fn into_asset(self, folder: Option<&Path>) -> Asset {
+        let file = |path: &str, content| Asset::File { path: paths::meant(path, folder), content };
+        match self {
+            Self::Named(name) => match Asset::named(&name) {
+                Asset::File { .. } => file(&name, None),
+                bundled @ Asset::Bundled(_) => bundled,
+            },
+            Self::File { path, content } => file(&path, content),
+        }
+    }
+}
+
+impl DirectionForm {
+    fn new(direction: Direction) -> Self {
+        Self { source: direction.source, angle_deg: short_degrees(direction.angle) }
+    }
+
+    fn into_direction(self) -> Direction {
+        Direction { source: self.source, angle: self.angle_deg.to_radians() as f32 }
+    }
+}
+
+/// The degrees of the fewest decimals that are this angle again when they are read.
+fn short_degrees(radians: f32) -> f64 {
+    let exact = f64::from(radians).to_degrees();
+    let rounded = |decimals: i32| {
+        let scale = 10_f64.powi(decimals);
+        (exact * scale).round() / scale
+    };
+    let is_same = |degrees: &f64| degrees.to_radians() as f32 == radians;
+    (0..12).map(rounded).find(is_same).unwrap_or(exact)
+}

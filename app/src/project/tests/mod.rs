@@ -1,0 +1,127 @@
+//! Files of projects, whole and broken, on disks that are well and on those that are not.
+
+mod faults;
+mod files;
+mod form;
+mod mutations;
+mod recovery;
+mod settings;
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::SystemTime;
+
+use amc_core::direction::{Direction, Field, Source};
+use amc_core::{Error, Result};
+use glam::Vec3;
+use studio_plugin::document::{Asset, FabricId, FabricInUse, PanelChoice, Project};
+
+use super::{Disk, System};
+
+/// A project that has something of everything; its files lie in `folder`.
+fn rich(folder: &Path) -> Project {
+    let mut project = Project::default();
+    project.garment = Asset::file(folder.join("coat.glb"));
+    for (number, asset) in [
+        (4, Asset::file(folder.join("fabrics/silk.amc.ktx2"))),
+        (9, Asset::file(folder.parent().unwrap().join("library/tweed.amc.ktx2"))),
+    ] {
+        project.fabrics.push(FabricInUse { id: FabricId::new(number), name: asset.name(), asset });
+    }
+    let around = Field::Around { origin: Vec3::new(0.1, -2.5, 1e-9), direction: Vec3::Y };
+    let directions = [
+        None,
+        Some(Direction { source: Source::Yarn, angle: std::f32::consts::FRAC_PI_2 }),
+        Some(Direction { source: Source::Field(around), angle: 0.1 }),
+    ];
+    for (k, direction) in directions.into_iter().enumerate() {
+        let fabric = [None, Some(None), Some(Some(FabricId::new(9)))][k];
+        project.panels.insert(format!("panel-{k}"), PanelChoice { fabric, direction, visible: k != 1 });
+    }
+    project.notes = "two \"lines\"\nof Grüße".to_owned();
+    project
+}
+
+/// Writes the files that [`rich`] names.
+fn write_files(folder: &Path) {
+    let around = folder.parent().unwrap();
+    for path in ["coat.glb", "fabrics/silk.amc.ktx2"].map(|name| folder.join(name)) {
+        put(&path, path.to_str().unwrap());
+    }
+    put(&around.join("library/tweed.amc.ktx2"), "tweed");
+}
+
+fn put(path: &Path, content: &str) {
+    amc_core::file::make_folder(path.parent().unwrap()).unwrap();
+    amc_core::file::save_bytes(path, content.as_bytes()).unwrap();
+}
+
+/// A disk that is well until it is told otherwise.
+#[derive(Debug, Default)]
+struct Faulty {
+    full: AtomicBool,
+    read_only: AtomicBool,
+    refuses_rename: AtomicBool,
+    saves: AtomicUsize,
+}
+
+impl Faulty {
+    fn is(flag: &AtomicBool) -> bool {
+        flag.load(Ordering::SeqCst)
+    }
+
+    fn refused(kind: io::ErrorKind, path: &Path) -> Error {
+        Error::io("cannot write", io::Error::from(kind)).in_file(path)
+    }
+}
+
+impl Disk for Faulty {
+    fn read(&self, path: &Path, limit: u64) -> Result<Vec<u8>> {
+        System.read(path, limit)
+    }
+
+    fn save(&self, path: &Path, bytes: &[u8]) -> Result<()> {
+        if Self::is(&self.read_only) {
+            return Err(Self::refused(io::ErrorKind::ReadOnlyFilesystem, path));
+        }
+        if Self::is(&self.full) {
+            // As it goes: the beginning fits.
+            let half = path.with_extension("half");
+            System.save(&half, &bytes[..bytes.len() / 2])?;
+            System.remove(&half)?;
+            return Err(Self::refused(io::ErrorKind::StorageFull, path));
+        }
+        if Self::is(&self.refuses_rename) {
+            return Err(Self::refused(io::ErrorKind::PermissionDenied, path));
+        }
+        self.saves.fetch_add(1, Ordering::SeqCst);
+        System.save(path, bytes)
+    }
+
+    fn remove(&self, path: &Path) -> Result<()> {
+        if Self::is(&self.read_only) && path.exists() {
+            return Err(Self::refused(io::ErrorKind::ReadOnlyFilesystem, path));
+        }
+        System.remove(path)
+    }
+
+    fn rename(&self, from: &Path, to: &Path) -> Result<()> {
+        if Self::is(&self.read_only) || Self::is(&self.refuses_rename) {
+            return Err(Self::refused(io::ErrorKind::PermissionDenied, from));
+        }
+        System.rename(from, to)
+    }
+
+    fn list(&self, folder: &Path) -> Result<Vec<PathBuf>> {
+        System.list(folder)
+    }
+
+    fn is_file(&self, path: &Path) -> bool {
+        System.is_file(path)
+    }
+
+    fn modified(&self, path: &Path) -> Option<SystemTime> {
+        System.modified(path)
+    }
+}
