@@ -3,3 +3,4 @@
 pub mod command_line;
 mod scene;
 mod storage;
+pub mod viewport;

@@ -2,4 +2,4 @@
 
 mod view;
 
-pub use view::ViewSettings;
+pub use view::{Angles, Lens, NamedView, TurningStyle, ViewSettings};
