@@ -46,12 +46,8 @@ impl From<amc_core::Error> for Failure {
 
 /// Anisotropic MatCap from the command line.
 ///
-<<<<<<< HEAD
 /// Without a command it opens the window; where there is no display it renders the bundled shirt and says where the picture
 /// is.
-=======
-/// Without a command it bakes the bundled satin, renders the bundled shirt in it and says where the picture is.
->>>>>>> main
 #[derive(Debug, Parser)]
 #[command(name = "amc-studio", version, about, args_conflicts_with_subcommands = true)]
 struct Arguments {

@@ -346,10 +346,7 @@ impl App {
         let (dropped, held) =
             ui.input(|input| (input.raw.dropped_files.clone(), !input.raw.hovered_files.is_empty()));
         for file in dropped {
-            match file.path() {
-                Some(path) => self.open(&path.to_owned()),
-                None => self.notices.failed("what was dropped is no file of this machine"),
-            }
+            self.open(file.path());
         }
         if held {
             let painter = ui.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop")));

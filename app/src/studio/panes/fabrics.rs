@@ -46,7 +46,7 @@ impl Plugin for Fabrics {
         for fabric in &fabrics {
             let detail = studio.stage.fabrics.get(&fabric.id).map_or_else(String::new, |amc| {
                 let size = amc.size();
-                format!("{0} x {0} x {1}, R = {2}", size.side(), size.slices(), amc.symmetry().order())
+                format!("{0} x {0} x {1}, R = {2}", size.side(), size.slices(), amc.symmetry.order())
             });
             if wide_button(ui, &fabric.name, &detail).clicked() {
                 wear(studio, fabric.id);
