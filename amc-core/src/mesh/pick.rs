@@ -74,7 +74,8 @@ impl Picker {
         }
         let points = ((high - low) / SPACING).ceil().clamp(Vec2::ONE, Vec2::splat(MOST_POINTS)).as_uvec2();
         let seen_in_row = |row: u32| -> BTreeSet<usize> {
-            let at = |column| low + (UVec2::new(column, row).as_vec2() + 0.5) / points.as_vec2() * (high - low);
+            let at =
+                |column| low + (UVec2::new(column, row).as_vec2() + 0.5) / points.as_vec2() * (high - low);
             (0..points.x).filter_map(|column| self.first(view.ray(at(column)), &hidden)).collect()
         };
         (0..points.y).into_par_iter().map(seen_in_row).reduce(BTreeSet::new, |mut all, row| {
@@ -144,7 +145,10 @@ mod tests {
     fn a_box_holds_the_panels_that_are_seen_in_it() {
         let in_box = |depths: [f32; 2], from: (f32, f32), to: (f32, f32)| {
             let picker = Picker::new(&squares(depths)).unwrap();
-            picker.in_box(&view(), Vec2::from(from), Vec2::from(to), |_| false).into_iter().collect::<Vec<_>>()
+            picker
+                .in_box(&view(), Vec2::from(from), Vec2::from(to), |_| false)
+                .into_iter()
+                .collect::<Vec<_>>()
         };
         assert_eq!(in_box([0.1, 0.2], (0.0, 0.0), (400.0, 200.0)), [0, 1]);
         assert_eq!(in_box([0.1, 0.2], (400.0, 200.0), (-90.0, 0.0)), [0, 1]);

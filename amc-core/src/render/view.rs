@@ -186,7 +186,9 @@ mod tests {
         let object_to_view = Mat4::from_translation(Vec3::new(0.3, -0.2, -4.0))
             * Mat4::from_rotation_y(0.7)
             * Mat4::from_rotation_x(-0.4);
-        for projection in [Projection::Orthographic { half_height: 1.5 }, Projection::Perspective { fov_y: 0.9 }] {
+        for projection in
+            [Projection::Orthographic { half_height: 1.5 }, Projection::Perspective { fov_y: 0.9 }]
+        {
             let view = View { object_to_view, projection, width: 320, height: 200, near: 2.0, far: 6.0 };
             for at in [Vec2::new(0.5, 0.5), Vec2::new(160.0, 100.0), Vec2::new(301.0, 27.0)] {
                 let ray = view.ray(at);

@@ -1,8 +1,8 @@
 //! A drawn picture into egui's pass.
 
+use amc_core::Result;
 use amc_core::render::gpu::{Gpu, checked};
 use amc_core::shader::{Sources, compose};
-use amc_core::{Error, Result};
 use eframe::egui_wgpu::{CallbackResources, CallbackTrait};
 use eframe::{egui, wgpu};
 

@@ -99,7 +99,8 @@ impl Canvas {
             _ => (Targets::new(tools, wanted)?, None),
         };
         let is_scene_shown = shown.as_ref().is_some_and(|shown| shown.has_scene_of(wanted));
-        let are_marks_shown = is_scene_shown && shown.as_ref().is_some_and(|shown| shown.marks == wanted.marks);
+        let are_marks_shown =
+            is_scene_shown && shown.as_ref().is_some_and(|shown| shown.marks == wanted.marks);
         let is_outline_shown = are_marks_shown && shown.is_some_and(|shown| shown.outline == wanted.outline);
         if !is_scene_shown {
             self.draw_scene(tools, scene, &targets, wanted)?;
@@ -141,12 +142,8 @@ impl Canvas {
         let marks = match targets.marks.take() {
             Some(marks) => marks,
             None => {
-                let marks = Offscreen::of_format(
-                    &tools.gpu.device,
-                    wanted.view.width,
-                    wanted.view.height,
-                    MARKS,
-                )?;
+                let marks =
+                    Offscreen::of_format(&tools.gpu.device, wanted.view.width, wanted.view.height, MARKS)?;
                 let picture = targets.picture.color();
                 targets.blit = tools.blitter.blit(tools.gpu, picture, Some(marks.color()));
                 marks

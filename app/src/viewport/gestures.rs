@@ -156,12 +156,8 @@ fn take_keys(ui: &egui::Ui, response: &egui::Response, settings: &mut ViewSettin
         return;
     }
     // Arrows turn, they do not move the focus.
-    let filter = egui::EventFilter {
-        tab: false,
-        escape: false,
-        horizontal_arrows: true,
-        vertical_arrows: true,
-    };
+    let filter =
+        egui::EventFilter { tab: false, escape: false, horizontal_arrows: true, vertical_arrows: true };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
     let presses = |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)) as f64;
     let right = presses(Key::ArrowRight) - presses(Key::ArrowLeft);

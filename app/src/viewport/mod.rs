@@ -6,19 +6,21 @@
 mod blit;
 mod canvas;
 mod gestures;
+mod input_output;
+mod paint;
 mod pixels;
 mod scenes;
 mod split;
 mod texts;
 pub mod turning;
 
+pub use input_output::{Boxed, Click, ViewportInput, ViewportOutput};
 pub use texts::GESTURES;
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use amc_core::Error;
-use amc_core::color::linear_from_srgb;
 use amc_core::mesh::Picker;
 use amc_core::render::gpu::{FabricTexture, Gpu, Renderer};
 use amc_core::render::{Drawing, Shading, View};
@@ -28,71 +30,10 @@ use studio_plugin::document::ViewSettings;
 use self::blit::Blitter;
 use self::canvas::{Canvas, Marks, Tools, Wanted};
 use self::gestures::{Asked, Gestures};
+use self::paint::{describe, linear, outline, paint_rubber_band, say};
 use self::pixels::Pixels;
 use self::scenes::{Garment, Shape};
 use self::split::Split;
-
-/// Widths of the outlines around selected and hovered panels, points.
-const OUTLINES: [f32; 2] = [2.0, 1.25];
-
-/// What the viewport is told in every frame. Panels are numbers of the drawing's draws.
-#[derive(Debug, Clone)]
-pub struct ViewportInput<'a> {
-    /// Panels with an outline.
-    pub selected: &'a BTreeSet<usize>,
-    /// A panel that is pointed at elsewhere, such as in a list; it gets an outline too.
-    pub hovered: Option<usize>,
-    /// Panels that are not there. To isolate some, hide all others.
-    pub hidden: &'a BTreeSet<usize>,
-    /// The other look of a split view, right of its divider: this shading, of the drawing given to
-    /// [`Viewport::set_compared`] or else of the same one. None: the view is not split.
-    pub compared: Option<Shading>,
-    /// Whether the left button belongs to a tool: then it neither turns nor selects.
-    pub tool: bool,
-    /// Behind the garment, where the view has no background of its own.
-    pub backdrop: egui::Color32,
-    /// The outline of selected panels.
-    pub selected_color: egui::Color32,
-    /// The outline of the hovered panel.
-    pub hovered_color: egui::Color32,
-}
-
-/// A click.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Click {
-    /// What was clicked; none: nothing.
-    pub panel: Option<usize>,
-    /// Whether it is to be added to the selection, or taken away from it.
-    pub add: bool,
-}
-
-/// A box that was drawn.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Boxed {
-    /// The panels that are seen in it.
-    pub panels: BTreeSet<usize>,
-    /// Whether they are to be added to the selection.
-    pub add: bool,
-}
-
-/// What happened in a frame.
-#[derive(Debug, Clone)]
-pub struct ViewportOutput {
-    /// The canvas, for menus, tooltips and tools.
-    pub response: egui::Response,
-    /// The panel under the pointer.
-    pub hovered: Option<usize>,
-    /// A click of the left button.
-    pub clicked: Option<Click>,
-    /// A box was drawn.
-    pub boxed: Option<Boxed>,
-    /// Whether the view settings changed.
-    pub changed: bool,
-    /// The view that is drawn, in pixels of the canvas; none where nothing can be seen.
-    pub view: Option<View>,
-    /// Why nothing is drawn; it stands in the viewport too.
-    pub error: Option<Arc<Error>>,
-}
 
 /// A garment in a part of the window.
 #[derive(Debug)]
@@ -323,49 +264,16 @@ impl Viewport {
         let halves = self.split.halves(at.rect, input.compared.is_some());
         for (side, (canvas, shading)) in self.canvases.iter_mut().zip(shadings).enumerate() {
             let compared = if side == 1 { self.compared.as_mut() } else { None };
-            let (Some(shading), Some(garment)) = (shading, compared.or(self.garment.as_mut())) else { continue };
+            let (Some(shading), Some(garment)) = (shading, compared.or(self.garment.as_mut())) else {
+                continue;
+            };
             let wanted = wanted(shading, garment.revision);
             let scene = garment.scene(tools.renderer)?;
             let blit = canvas.picture(&mut tools, scene, &wanted, &mut self.scenes_drawn)?;
-            ui.painter().with_clip_rect(halves[side].intersect(ui.clip_rect())).add(blit.shape(at.rect, at.viewport()));
+            ui.painter()
+                .with_clip_rect(halves[side].intersect(ui.clip_rect()))
+                .add(blit.shape(at.rect, at.viewport()));
         }
         Ok(Some(view))
     }
-}
-
-/// What a screen reader says of the canvas.
-fn describe(ui: &egui::Ui, response: &egui::Response) {
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, ui.is_enabled(), texts::NAME));
-    ui.accesskit_node_builder(response.id, |node| node.set_description(texts::DESCRIPTION));
-}
-
-/// Text in place of a picture.
-fn say(ui: &egui::Ui, rect: egui::Rect, backdrop: egui::Color32, text: &str) {
-    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
-    painter.rect_filled(rect, 0.0, backdrop);
-    let font = egui::TextStyle::Body.resolve(ui.style());
-    let width = (rect.width() - 32.0).max(64.0);
-    let galley = painter.layout(text.to_owned(), font, ui.visuals().text_color(), width);
-    let corner = rect.center() - galley.size() / 2.0;
-    painter.galley(corner, galley, ui.visuals().text_color());
-}
-
-fn paint_rubber_band(ui: &egui::Ui, rect: egui::Rect, asked: Asked) {
-    if let Some(band) = asked.rubber_band {
-        let stroke = ui.visuals().selection.stroke;
-        let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
-        painter.rect(band, 0.0, stroke.color.gamma_multiply(0.15), stroke, egui::StrokeKind::Middle);
-    }
-}
-
-fn linear(color: egui::Color32) -> [f32; 3] {
-    [color.r(), color.g(), color.b()].map(|value| linear_from_srgb(f32::from(value) / 255.0))
-}
-
-fn outline(ui: &egui::Ui, input: &ViewportInput<'_>) -> blit::OutlineUniforms {
-    let of = |color, points: f32| {
-        let [r, g, b] = linear(color);
-        [r, g, b, points * ui.pixels_per_point()]
-    };
-    [of(input.selected_color, OUTLINES[0]), of(input.hovered_color, OUTLINES[1])]
 }

@@ -54,9 +54,14 @@ impl Split {
         if rect.width() < GRIP {
             return None;
         }
-        let grip = egui::Rect::from_x_y_ranges(self.x(rect) - GRIP / 2.0..=self.x(rect) + GRIP / 2.0, rect.y_range());
+        let grip = egui::Rect::from_x_y_ranges(
+            self.x(rect) - GRIP / 2.0..=self.x(rect) + GRIP / 2.0,
+            rect.y_range(),
+        );
         let id = ui.scope_id().with("divider");
-        let response = ui.interact(grip, id, egui::Sense::click_and_drag()).on_hover_and_drag_cursor(egui::CursorIcon::ResizeHorizontal);
+        let response = ui
+            .interact(grip, id, egui::Sense::click_and_drag())
+            .on_hover_and_drag_cursor(egui::CursorIcon::ResizeHorizontal);
         if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
             self.set_share((pointer.x - rect.left()) / rect.width());
         }

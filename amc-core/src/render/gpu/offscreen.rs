@@ -74,7 +74,12 @@ impl Offscreen {
         let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let TargetFormat { color, depth, samples } = target;
         let none = wgpu::TextureUsages::empty();
-        let resolved = texture("picture", color, 1, wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::TEXTURE_BINDING);
+        let resolved = texture(
+            "picture",
+            color,
+            1,
+            wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::TEXTURE_BINDING,
+        );
         Self {
             width,
             height,
