@@ -37,10 +37,6 @@ impl Folders {
 
     /// All of them within one folder.
     pub fn in_folder(folder: &Path) -> Self {
-        Self {
-            settings: folder.to_owned(),
-            recovery: folder.join("recovery"),
-            locks: folder.join("locks"),
-        }
+        Self { settings: folder.to_owned(), recovery: folder.join("recovery"), locks: folder.join("locks") }
     }
 }

@@ -38,12 +38,17 @@ pub struct App {
     leaving: bool,
     /// Changes are to be thrown away: the window may close.
     discard: bool,
+    /// The window is to close once the project is saved.
+    leaving_saved: bool,
     context: egui::Context,
 }
 
 impl std::fmt::Debug for App {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("App").field("desk", &self.desk).field("registry", &self.registry).finish_non_exhaustive()
+        f.debug_struct("App")
+            .field("desk", &self.desk)
+            .field("registry", &self.registry)
+            .finish_non_exhaustive()
     }
 }
 
@@ -66,13 +71,13 @@ impl App {
             layout: dock::initial(&registry),
             registry,
             stager: Stager::default(),
-            gpu: render_state
-                .map(|state| Gpu { device: state.device.clone(), queue: state.queue.clone() }),
+            gpu: render_state.map(|state| Gpu { device: state.device.clone(), queue: state.queue.clone() }),
             viewport: render_state.map(Viewport::new),
             palette: Palette::default(),
             dialog: None,
             leaving: false,
             discard: false,
+            leaving_saved: false,
             context: creation.egui_ctx.clone(),
         };
         for file in files {
@@ -122,7 +127,10 @@ impl App {
         let takes = |registered: &studio_plugin::Registered| {
             let importers = registered.plugin().importers();
             !registered.is_off()
-                && importers.iter().flat_map(|it| it.suffixes).any(|suffix| name.ends_with(&format!(".{suffix}")))
+                && importers
+                    .iter()
+                    .flat_map(|it| it.suffixes)
+                    .any(|suffix| name.ends_with(&format!(".{suffix}")))
         };
         let Some(index) = self.registry.plugins().iter().position(takes) else {
             self.notices.failed(format!(
@@ -189,6 +197,10 @@ impl App {
     fn run(&mut self, wanted: Wanted, ui: &egui::Ui) {
         match wanted {
             Wanted::Own(action) => self.act(action, ui),
+            Wanted::Pane { plugin, pane } => {
+                let pane = Pane::Plugin { plugin: plugin.to_owned(), pane: pane.to_owned() };
+                dock::bring_forward(&mut self.layout, &pane);
+            }
             Wanted::Plugin { plugin, command } => self.with_context(|registry, studio| {
                 if let Some(plugin) = registry.get_mut(plugin) {
                     plugin.call(studio, |plugin, studio| {
@@ -222,7 +234,8 @@ impl App {
             Action::SelectNone => self.selection.panels.clear(),
             Action::Palette => self.palette.toggle(),
             Action::Theme => {
-                let other = if ui.theme() == egui::Theme::Dark { egui::Theme::Light } else { egui::Theme::Dark };
+                let other =
+                    if ui.theme() == egui::Theme::Dark { egui::Theme::Light } else { egui::Theme::Dark };
                 ui.set_theme(other);
             }
             Action::ResetLayout => self.layout = dock::initial(&self.registry),
@@ -236,7 +249,7 @@ impl App {
             Wanted::Own(Action::Undo) => self.desk.document.undo_name().is_some(),
             Wanted::Own(Action::Redo) => self.desk.document.redo_name().is_some(),
             Wanted::Own(Action::SelectNone) => !self.selection.panels.is_empty(),
-            Wanted::Own(_) | Wanted::Plugin { .. } => true,
+            Wanted::Own(_) | Wanted::Plugin { .. } | Wanted::Pane { .. } => true,
         }
     }
 
@@ -278,7 +291,8 @@ impl App {
                 })
             }))
             .collect();
-        let title = |wanted: &Pane| titles.iter().find(|(pane, _)| pane == wanted).map(|(_, title)| title.clone());
+        let title =
+            |wanted: &Pane| titles.iter().find(|(pane, _)| pane == wanted).map(|(_, title)| title.clone());
         let mut show = |pane: &Pane, ui: &mut egui::Ui| match pane {
             Pane::Viewport => self.show_viewport(ui),
             Pane::Plugin { plugin, pane } => self.with_context(|registry, studio| {
@@ -349,11 +363,24 @@ impl App {
             self.open(file.path());
         }
         if held {
-            let painter = ui.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop")));
+            let painter =
+                ui.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop")));
             let tokens = Tokens::of(ui);
             let rect = ui.content_rect().shrink(4.0 * STEP);
-            painter.rect(rect, 2.0 * STEP, tokens.surface.gamma_multiply(0.9), egui::Stroke::new(2.0, tokens.accent), egui::StrokeKind::Inside);
-            painter.text(rect.center(), egui::Align2::CENTER_CENTER, texts::DROP_HERE, egui::TextStyle::Heading.resolve(ui.style()), tokens.text);
+            painter.rect(
+                rect,
+                2.0 * STEP,
+                tokens.surface.gamma_multiply(0.9),
+                egui::Stroke::new(2.0, tokens.accent),
+                egui::StrokeKind::Inside,
+            );
+            painter.text(
+                rect.center(),
+                egui::Align2::CENTER_CENTER,
+                texts::DROP_HERE,
+                egui::TextStyle::Heading.resolve(ui.style()),
+                tokens.text,
+            );
         }
     }
 
@@ -373,9 +400,19 @@ impl App {
 
     /// Holds the window open while there are changes that nobody has said what to do with.
     fn leave(&mut self, ui: &egui::Ui) {
-        if ui.input(|input| input.viewport().close_requested()) && self.desk.document.is_changed() && !self.discard {
+        if ui.input(|input| input.viewport().close_requested())
+            && self.desk.document.is_changed()
+            && !self.discard
+        {
             ui.send_viewport_cmd(ViewportCommand::CancelClose);
             self.leaving = true;
+        }
+        if self.leaving_saved && !self.desk.is_busy() && self.dialog.is_none() {
+            // What could not be saved keeps the window open.
+            self.leaving_saved = false;
+            if !self.desk.document.is_changed() {
+                ui.send_viewport_cmd(ViewportCommand::Close);
+            }
         }
         if !self.leaving {
             return;
@@ -399,6 +436,7 @@ impl App {
         if save {
             self.save();
             self.leaving = false;
+            self.leaving_saved = true;
         }
         if self.discard {
             ui.send_viewport_cmd(ViewportCommand::Close);

@@ -142,20 +142,25 @@ impl Desk {
         }
         let used: Vec<PathBuf> =
             self.document.project().assets().filter_map(|asset| asset.path()).map(Path::to_owned).collect();
-        self.missing.retain(|missing| missing.asset.path().is_some_and(|path| used.iter().any(|it| it == path)));
+        self.missing
+            .retain(|missing| missing.asset.path().is_some_and(|path| used.iter().any(|it| it == path)));
     }
 
     /// Takes in what was opened and saved, and tells the autosave of changes. To be called once a frame.
     pub(super) fn update(&mut self, notices: &mut Notices) {
-        if let Some((path, result)) = self.opening.as_ref().and_then(|(path, job)| Some((path.clone(), job.poll()?))) {
+        if let Some((path, result)) =
+            self.opening.as_ref().and_then(|(path, job)| Some((path.clone(), job.poll()?)))
+        {
             self.opening = None;
             match result {
                 Ok(opened) => self.opened(path, opened, notices),
                 Err(error) => notices.failed(error),
             }
         }
-        let saved =
-            self.saving.as_ref().and_then(|(path, snapshot, job)| Some((path.clone(), snapshot.clone(), job.poll()?)));
+        let saved = self
+            .saving
+            .as_ref()
+            .and_then(|(path, snapshot, job)| Some((path.clone(), snapshot.clone(), job.poll()?)));
         if let Some((path, snapshot, result)) = saved {
             self.saving = None;
             match result {

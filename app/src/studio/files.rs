@@ -31,16 +31,16 @@ impl Dialog {
         let job = jobs.start("Choosing a file", move |_| {
             let dialog = rfd::FileDialog::new();
             Ok(match asked {
-                Purpose::Find(missing) => dialog.set_title(format!("Where is {}?", missing.display())).pick_file(),
+                Purpose::Find(missing) => {
+                    dialog.set_title(format!("Where is {}?", missing.display())).pick_file()
+                }
                 Purpose::Open => dialog
                     .add_filter("All that can be opened", &["amcproj", "glb", "gltf", "obj", "ktx2"])
                     .add_filter("Projects", &["amcproj"])
                     .add_filter("Garments", &["glb", "gltf", "obj"])
                     .add_filter("Fabrics", &["ktx2"])
                     .pick_file(),
-                Purpose::Save => {
-                    dialog.add_filter("Projects", &["amcproj"]).set_file_name(name).save_file()
-                }
+                Purpose::Save => dialog.add_filter("Projects", &["amcproj"]).set_file_name(name).save_file(),
             })
         });
         Self { purpose, job }

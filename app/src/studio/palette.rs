@@ -47,7 +47,9 @@ impl Palette {
         }
         let mut found: Vec<_> = commands
             .iter()
-            .filter_map(|(of, command, wanted)| Some((distance(&self.query, command.name)?, of, command, wanted)))
+            .filter_map(|(of, command, wanted)| {
+                Some((distance(&self.query, command.name)?, of, command, wanted))
+            })
             .collect();
         found.sort_by_key(|(distance, ..)| *distance);
         found.truncate(MOST);
@@ -78,7 +80,8 @@ impl Palette {
                 ui.weak(texts::PALETTE_NOTHING);
             }
             for (index, (_, of, command, _)) in found.iter().enumerate() {
-                let shortcut = command.shortcut.map(|shortcut| ui.format_shortcut(&shortcut)).unwrap_or_default();
+                let shortcut =
+                    command.shortcut.map(|shortcut| ui.format_shortcut(&shortcut)).unwrap_or_default();
                 let chosen = index == self.chosen;
                 let weak = if chosen { tokens.on_accent } else { tokens.text_weak };
                 let text = egui::RichText::new(**of).color(weak);

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui;
 
-use super::theme::{STEP, Tokens};
 use super::texts;
+use super::theme::{STEP, Tokens};
 use crate::project::{Missing, Recoverable};
 
 /// An answer to what is asked at the start.
@@ -76,7 +76,9 @@ pub(super) fn missing(ui: &egui::Ui, files: &[Missing]) -> Option<OfMissing> {
                 ui.label(shown(path));
             });
             for place in &file.looked_for {
-                ui.label(egui::RichText::new(format!("not at {}", shown(place))).color(Tokens::of(ui).text_weak));
+                ui.label(
+                    egui::RichText::new(format!("not at {}", shown(place))).color(Tokens::of(ui).text_weak),
+                );
             }
         }
         ui.add_space(2.0 * STEP);

@@ -61,11 +61,7 @@ struct Recipe {
 impl PartialEq for Recipe {
     fn eq(&self, other: &Self) -> bool {
         let same_fabrics = self.fabrics.len() == other.fabrics.len()
-            && self
-                .fabrics
-                .iter()
-                .zip(&other.fabrics)
-                .all(|((a, x), (b, y))| a == b && Arc::ptr_eq(x, y));
+            && self.fabrics.iter().zip(&other.fabrics).all(|((a, x), (b, y))| a == b && Arc::ptr_eq(x, y));
         Arc::ptr_eq(&self.loaded.garment, &other.loaded.garment) && self.looks == other.looks && same_fabrics
     }
 }
@@ -80,7 +76,9 @@ impl Stager {
 
     /// Whether something is still to come.
     pub(super) fn is_busy(&self) -> bool {
-        self.garment.job.is_some() || self.drawing.is_some() || self.fabrics.values().any(|it| it.job.is_some())
+        self.garment.job.is_some()
+            || self.drawing.is_some()
+            || self.fabrics.values().any(|it| it.job.is_some())
     }
 
     fn update_garment(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
@@ -88,7 +86,9 @@ impl Stager {
             let asset = project.garment.clone();
             self.garment.wanted = Some(asset.clone());
             self.garment.job =
-                Some(jobs.start(format!("Opening {}", asset.name()), move |progress| Loaded::new(&asset, progress)));
+                Some(jobs.start(format!("Opening {}", asset.name()), move |progress| {
+                    Loaded::new(&asset, progress)
+                }));
         }
         if let Some(result) = self.garment.job.as_ref().and_then(Job::poll) {
             self.garment.job = None;

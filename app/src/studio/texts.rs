@@ -24,6 +24,7 @@ pub(super) const RECOVER_TITLE: &str = "Unsaved work was found";
 pub(super) const RECOVER_TEXT: &str = "The studio was not closed properly. This was not saved:";
 pub(super) const RECOVER: &str = "Take it back";
 pub(super) const MISSING_TITLE: &str = "Some files are not there";
-pub(super) const MISSING_TEXT: &str = "They were moved, renamed or deleted. What is missing is left out of the view and kept in the project.";
+pub(super) const MISSING_TEXT: &str =
+    "They were moved, renamed or deleted. What is missing is left out of the view and kept in the project.";
 pub(super) const FIND: &str = "Find ...";
 pub(super) const WITHOUT: &str = "Go on without them";

@@ -38,7 +38,8 @@ fn jobs(ui: &mut egui::Ui, studio: &Context<'_>) {
             if ui.button("Cancel").on_hover_text(format!("Stops '{}'", job.name)).clicked() {
                 studio.jobs.cancel(index);
             }
-            let text = if job.stage.is_empty() { job.name.clone() } else { format!("{}: {}", job.name, job.stage) };
+            let text =
+                if job.stage.is_empty() { job.name.clone() } else { format!("{}: {}", job.name, job.stage) };
             match job.share {
                 Some(share) => {
                     ui.add(egui::ProgressBar::new(share).desired_width(40.0 * STEP).show_percentage());

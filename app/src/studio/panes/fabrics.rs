@@ -56,7 +56,9 @@ impl Plugin for Fabrics {
         ui.strong("With the program");
         for bundled in BUNDLED {
             let asset = Asset::Bundled(format!("fabric:{}", bundled.name));
-            if !fabrics.iter().any(|fabric| fabric.asset == asset) && wide_button(ui, bundled.name, "").clicked() {
+            if !fabrics.iter().any(|fabric| fabric.asset == asset)
+                && wide_button(ui, bundled.name, "").clicked()
+            {
                 put_on(studio, asset, bundled.name);
             }
         }
@@ -65,7 +67,12 @@ impl Plugin for Fabrics {
 
 fn wide_button(ui: &mut egui::Ui, name: &str, detail: &str) -> egui::Response {
     let detail = egui::RichText::new(detail).weak().small();
-    ui.add(egui::Button::new(name).right_text(detail).truncate().min_size(vec2(ui.available_width(), 7.0 * STEP)))
+    ui.add(
+        egui::Button::new(name)
+            .right_text(detail)
+            .truncate()
+            .min_size(vec2(ui.available_width(), 7.0 * STEP)),
+    )
 }
 
 /// Adds a fabric, unless it is there, and puts it on what is selected.
@@ -83,9 +90,10 @@ fn put_on(studio: &mut Context<'_>, asset: Asset, name: &str) {
 fn wear(studio: &mut Context<'_>, fabric: FabricId) {
     let Some(garment) = &studio.stage.garment else { return };
     let selected = &studio.selection.panels;
-    let panels = garment.panels.iter().filter(|panel| {
-        if selected.is_empty() { panel.takes_fabric } else { selected.contains(&panel.id) }
-    });
+    let panels = garment
+        .panels
+        .iter()
+        .filter(|panel| if selected.is_empty() { panel.takes_fabric } else { selected.contains(&panel.id) });
     let panels = panels.map(|panel| panel.id.clone()).collect();
     studio.submit(Edit::SetFabric { panels, fabric: Some(fabric) });
 }

@@ -55,7 +55,10 @@ impl Plugin for Inspector {
         let Some(garment) = studio.stage.garment.clone() else { return };
         let panels = picked(&garment, studio);
         let edit = if command == GRAIN.id {
-            Edit::SetDirection { panels: panels.iter().map(|panel| panel.id.clone()).collect(), direction: None }
+            Edit::SetDirection {
+                panels: panels.iter().map(|panel| panel.id.clone()).collect(),
+                direction: None,
+            }
         } else {
             let degrees: f32 = if command == SWAP.id { 90.0 } else { 45.0 };
             let now = panels.iter().map(|panel| (panel.id.clone(), direction(panel, studio)));
@@ -141,24 +144,28 @@ fn fabric(ui: &mut egui::Ui, panels: &[&Panel], studio: &mut Context<'_>) {
     let project = studio.document.project();
     let worn: Vec<_> = panels.iter().map(|panel| project.look_of(panel).fabric).collect();
     let same = worn.first().copied().filter(|first| worn.iter().all(|other| other == first));
-    let named = |id| project.fabrics.iter().find(|fabric| Some(fabric.id) == id).map(|fabric| fabric.name.clone());
+    let named =
+        |id| project.fabrics.iter().find(|fabric| Some(fabric.id) == id).map(|fabric| fabric.name.clone());
     let shown = match same {
         Some(id) => named(id).unwrap_or_else(|| "no fabric".to_owned()),
         None => "several".to_owned(),
     };
     let fabrics = project.fabrics.clone();
     let ids: Vec<String> = panels.iter().map(|panel| panel.id.clone()).collect();
-    let box_ = egui::ComboBox::from_label("Fabric").selected_text(shown).show_ui(ui, |ui| {
-        for fabric in fabrics {
-            if ui.selectable_label(same == Some(Some(fabric.id)), &fabric.name).clicked() {
-                studio.submit(Edit::SetFabric { panels: ids.clone(), fabric: Some(fabric.id) });
+    ui.horizontal(|ui| {
+        let label = ui.label("Fabric");
+        let list = egui::ComboBox::from_id_salt("fabric").selected_text(shown).show_ui(ui, |ui| {
+            for fabric in fabrics {
+                if ui.selectable_label(same == Some(Some(fabric.id)), &fabric.name).clicked() {
+                    studio.submit(Edit::SetFabric { panels: ids.clone(), fabric: Some(fabric.id) });
+                }
             }
-        }
-        if ui.selectable_label(same == Some(None), "no fabric").clicked() {
-            studio.submit(Edit::SetFabric { panels: ids.clone(), fabric: None });
-        }
+            if ui.selectable_label(same == Some(None), "no fabric").clicked() {
+                studio.submit(Edit::SetFabric { panels: ids.clone(), fabric: None });
+            }
+        });
+        list.response.labelled_by(label.id).on_hover_text("What the panels are made of");
     });
-    box_.response.on_hover_text("What the panels are made of");
 }
 
 impl Inspector {

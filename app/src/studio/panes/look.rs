@@ -81,7 +81,8 @@ impl Plugin for Look {
             lens(ui, &mut view);
             shading(ui, &mut view);
         });
-        ui.checkbox(&mut view.occlusion, "Darken the folds").on_hover_text("Ambient occlusion of every vertex");
+        ui.checkbox(&mut view.occlusion, "Darken the folds")
+            .on_hover_text("Ambient occlusion of every vertex");
         let mut turns = view.auto_turn.is_some();
         if ui.checkbox(&mut turns, AUTO_TURN.name).on_hover_text(AUTO_TURN.tooltip).changed() {
             view.auto_turn = turns.then_some(TURNING_SPEED);

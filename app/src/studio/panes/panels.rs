@@ -75,7 +75,12 @@ impl Plugin for Panels {
                 let mut visible = look.visible;
                 let eye = ui.checkbox(&mut visible, "").on_hover_text("Shown in the view");
                 eye.widget_info(|| {
-                    egui::WidgetInfo::selected(egui::Role::CheckBox, true, visible, format!("Show {}", panel.name))
+                    egui::WidgetInfo::selected(
+                        egui::Role::CheckBox,
+                        true,
+                        visible,
+                        format!("Show {}", panel.name),
+                    )
                 });
                 if eye.changed() {
                     studio.submit(Edit::SetVisible { panels: vec![panel.id.clone()], visible });
@@ -83,7 +88,8 @@ impl Plugin for Panels {
                 let selected = studio.selection.panels.contains(&panel.id);
                 let fabric = look.fabric.and_then(|id| studio.document.project().fabric(id));
                 let weak = if selected { tokens.on_accent } else { tokens.text_weak };
-                let fabric = RichText::new(fabric.map_or("no fabric", |fabric| fabric.name.as_str())).color(weak);
+                let fabric =
+                    RichText::new(fabric.map_or("no fabric", |fabric| fabric.name.as_str())).color(weak);
                 let row = egui::Button::selectable(selected, panel.name.as_str())
                     .right_text(fabric)
                     .truncate()
@@ -111,7 +117,9 @@ impl Plugin for Panels {
 /// What is unusual about a panel's UVs, for people.
 pub(super) fn flags(flags: amc_core::mesh::PanelFlags) -> &'static str {
     match (flags.mirrored, flags.degenerate) {
-        (true, true) => "Its UVs are mirrored, and some of it has none: directions there are filled from the neighbours",
+        (true, true) => {
+            "Its UVs are mirrored, and some of it has none: directions there are filled from the neighbours"
+        }
         (true, false) => "Its UVs are mirrored",
         (false, true) => "Some of it has no UVs: directions there are filled from the neighbours",
         (false, false) => "Its UVs are as they should be",
