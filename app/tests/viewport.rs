@@ -274,6 +274,7 @@ fn drags_keys_and_the_wheel_change_the_view() {
         unit: egui::MouseWheelUnit::Point,
         delta: vec2(0.0, 40.0),
         phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Wheel,
         modifiers: Modifiers::NONE,
     });
     harness.run_steps(30);
@@ -311,7 +312,8 @@ fn the_pointer_finds_the_panel_that_is_drawn_there() {
         (Lens::Perspective { focal_length_mm: 24.0 }, NamedView::Back),
         (Lens::Perspective { focal_length_mm: 85.0 }, NamedView::Top),
     ] {
-        let mut settings = ViewSettings { lens, ..ViewSettings::default() };
+        let mut settings = ViewSettings::default();
+        settings.lens = lens;
         settings.look(named);
         let view = settings.view(bounds, 96, 72);
         let ids = id_picture(&drawing, &view);

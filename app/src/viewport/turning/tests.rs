@@ -15,8 +15,15 @@ fn bounds() -> Bounds {
 }
 
 fn both_lenses() -> [ViewSettings; 2] {
-    let perspective = Lens::Perspective { focal_length_mm: 35.0 };
-    [ViewSettings::default(), ViewSettings { lens: perspective, ..ViewSettings::default() }]
+    let mut perspective = ViewSettings::default();
+    perspective.lens = Lens::Perspective { focal_length_mm: 35.0 };
+    [ViewSettings::default(), perspective]
+}
+
+fn turning_as(style: TurningStyle) -> ViewSettings {
+    let mut settings = ViewSettings::default();
+    settings.turning = style;
+    settings
 }
 
 #[test]
@@ -42,7 +49,7 @@ fn a_grabbed_point_of_the_ball_stays_under_the_pointer() {
 #[test]
 fn a_drag_there_and_back_changes_nothing() {
     for turning in [TurningStyle::Arcball, TurningStyle::Turntable] {
-        let mut settings = ViewSettings { turning, ..ViewSettings::default() };
+        let mut settings = turning_as(turning);
         settings.set_angles(Angles { yaw: 30.0, pitch: 20.0, roll: 5.0 });
         let before = settings.orientation();
         let from = Vec2::new(0.1, 0.2);
@@ -61,12 +68,12 @@ fn a_drag_there_and_back_changes_nothing() {
 fn both_styles_turn_the_front_to_where_the_pointer_goes() {
     for turning in [TurningStyle::Arcball, TurningStyle::Turntable] {
         let dragged = |to: Vec2| {
-            let mut settings = ViewSettings { turning, ..ViewSettings::default() };
+            let mut settings = turning_as(turning);
             turn(&mut settings, DQuat::IDENTITY, Vec2::ZERO, to, 1.0);
             settings.orientation() * DVec3::Z
         };
         let keyed = |right, up| {
-            let mut settings = ViewSettings { turning, ..ViewSettings::default() };
+            let mut settings = turning_as(turning);
             turn_by(&mut settings, right, up);
             settings.orientation() * DVec3::Z
         };
@@ -81,7 +88,7 @@ fn both_styles_turn_the_front_to_where_the_pointer_goes() {
 
 #[test]
 fn a_turntable_stays_upright_and_a_spin_is_about_the_objects_own_axis() {
-    let mut settings = ViewSettings { turning: TurningStyle::Turntable, ..ViewSettings::default() };
+    let mut settings = turning_as(TurningStyle::Turntable);
     for step in 0..50 {
         let start = settings.orientation();
         turn(&mut settings, start, Vec2::ZERO, Vec2::new(0.37, 0.21 * (step as f32).sin()), 1.0);
