@@ -4,6 +4,7 @@
 //! the disk. The full run: `cargo test -p amc-studio --test kill -- --ignored --nocapture`.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::print_stdout, reason = "the process that is killed reports to its killer")]
 
 use std::collections::BTreeMap;
 use std::io::{BufRead as _, BufReader};
