@@ -20,6 +20,8 @@ pub mod image;
 pub mod mesh;
 pub mod occlusion;
 mod progress;
+#[cfg(test)]
+mod pseudo_random;
 pub mod reflectance;
 pub mod render;
 pub mod shader;

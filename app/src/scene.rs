@@ -6,7 +6,7 @@ mod garment;
 mod look;
 mod panel_option;
 
-pub(crate) use fabric::Fabrics;
+pub(crate) use fabric::{Fabrics, load_fabric};
 pub(crate) use garment::load_garment;
 pub(crate) use look::{PanelLook, directions, panel_looks};
 pub(crate) use panel_option::PanelOption;
@@ -19,7 +19,7 @@ use glam::Vec2;
 use crate::storage::cache_folder;
 
 /// Occlusion of every vertex, from the cache where it is there.
-fn vertex_occlusion(garment: &Garment, progress: &Progress<'_>) -> Result<Vec<Vec2>> {
+pub(crate) fn vertex_occlusion(garment: &Garment, progress: &Progress<'_>) -> Result<Vec<Vec2>> {
     let options = occlusion::Options::default();
     match cache_folder() {
         Some(folder) => occlusion::cached(garment, options, &folder.join("occlusion"), progress),

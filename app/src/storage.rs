@@ -1,6 +1,6 @@
 //! Where the program keeps its own files.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The folder of caches: baked fabrics, occlusion. Deleting it costs time only. None where the system names no such
 /// folder; then nothing is cached.
@@ -33,5 +33,14 @@ impl Folders {
             recovery: folders.data_local_dir().join("recovery"),
             locks: folders.data_local_dir().join("locks"),
         })
+    }
+
+    /// All of them within one folder.
+    pub fn in_folder(folder: &Path) -> Self {
+        Self {
+            settings: folder.to_owned(),
+            recovery: folder.join("recovery"),
+            locks: folder.join("locks"),
+        }
     }
 }

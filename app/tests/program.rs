@@ -15,6 +15,8 @@ fn run(folder: &Path, arguments: &[&str]) -> Output {
         .args(arguments)
         .current_dir(folder)
         .env("XDG_CACHE_HOME", folder.join("cache"))
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
         .output()
         .unwrap()
 }
@@ -47,7 +49,7 @@ fn scratch() -> TempDir {
 }
 
 #[test]
-fn without_a_command_it_makes_a_picture_and_says_where() {
+fn without_a_command_and_a_display_it_makes_a_picture_and_says_where() {
     let folder = scratch();
     let said = done(folder.path(), &[]);
     assert!(said.contains("amc-studio.png"), "{said}");

@@ -2,13 +2,12 @@
 //! Prints the medians and their ratio; ends with 1 where the ratio is under [`LEAST_RATIO`].
 
 use std::f32::consts::TAU;
-use std::hint::black_box;
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
 
 use amc_core::direction::{Direction, Source, tangents};
 use amc_core::mesh::{Garment, Panel};
 use glam::{Vec2, Vec3};
+use studio_tests::timing::{is_wanted, median, milliseconds, timed};
 
 /// How many times faster than `mikktspace` the directions must be.
 const LEAST_RATIO: f64 = 10.0;
@@ -20,6 +19,9 @@ const PANELS: u32 = 14;
 const CELLS: u32 = 130;
 
 fn main() -> ExitCode {
+    if !is_wanted() {
+        return ExitCode::SUCCESS;
+    }
     let garment = garment();
     let directions: Vec<Direction> = (0..PANELS)
         .map(|k| Direction {
@@ -29,18 +31,11 @@ fn main() -> ExitCode {
         .collect();
     let (mut ours, mut theirs) = (Vec::new(), Vec::new());
     for _ in 0..REPEATS {
-        let start = Instant::now();
-        let made = tangents(&garment, &directions);
-        ours.push(start.elapsed());
-        if let Err(error) = black_box(made) {
-            return fail(&error.to_string());
-        }
+        ours.push(timed(|| tangents(&garment, &directions).expect("a checked garment has directions")));
         let mut corners =
             Corners { garment: &garment, tangents: vec![[[0.0; 4]; 3]; garment.triangles.len()] };
-        let start = Instant::now();
-        let made = mikktspace::generate_tangents(&mut corners);
-        theirs.push(start.elapsed());
-        if !made || black_box(corners.tangents).iter().flatten().any(|t| t[3] == 0.0) {
+        theirs.push(timed(|| assert!(mikktspace::generate_tangents(&mut corners))));
+        if corners.tangents.as_flattened().iter().any(|tangent| tangent[3] == 0.0) {
             return fail("mikktspace gave no tangents");
         }
     }
@@ -50,8 +45,8 @@ fn main() -> ExitCode {
         "{} triangles, {} threads: directions {:.1} ms, mikktspace {:.1} ms: {ratio:.1} times faster",
         garment.triangles.len(),
         std::thread::available_parallelism().map_or(1, usize::from),
-        ours.as_secs_f64() * 1e3,
-        theirs.as_secs_f64() * 1e3
+        milliseconds(ours),
+        milliseconds(theirs)
     ));
     if ratio < LEAST_RATIO {
         return fail(&format!("under the {LEAST_RATIO} times that are promised"));
@@ -68,11 +63,6 @@ fn report(line: &str) {
 fn fail(line: &str) -> ExitCode {
     eprintln!("direction_speed: {line}");
     ExitCode::FAILURE
-}
-
-fn median(mut times: Vec<Duration>) -> Duration {
-    times.sort();
-    times.get(times.len() / 2).copied().unwrap_or_default()
 }
 
 /// Waving panels side by side, their UVs sheared a little.

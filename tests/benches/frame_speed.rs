@@ -8,7 +8,7 @@
 
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use amc_core::amc::{Amc, Frame, Symmetry, TableSize, Texels};
 use amc_core::image::Picture;
@@ -16,6 +16,7 @@ use amc_core::render::gpu::{Backend, Eye, Gpu, Offscreen, Renderer, Scene, wgpu}
 use amc_core::render::{Cloth, Cyclic, Draw, Drawing, Mode, Projection, Shading, Vertex, View};
 use amc_core::view_space::Azimuth;
 use glam::{Mat4, Vec2, Vec3};
+use studio_tests::timing::{is_wanted, median, milliseconds, timed};
 
 /// AMC time over MatCap time, 8-bit sRGB.
 const BAR: f64 = 1.6;
@@ -29,6 +30,9 @@ const FRAMES: usize = 60;
 const WARM_UP: usize = 5;
 
 fn main() -> ExitCode {
+    if !is_wanted() {
+        return ExitCode::SUCCESS;
+    }
     let backend = if std::env::args().any(|word| word == "--gl") { Backend::Gl } else { Backend::Vulkan };
     let gpu = match Gpu::headless(backend) {
         Ok(gpu) => gpu,
@@ -79,10 +83,7 @@ fn compare(gpu: &Gpu, samples: u32, format: &str, texels: &Texels, cyclic: Cycli
             }
         }
     }
-    let [amc, matcap] = times.map(|mut times| {
-        times.sort();
-        times[times.len() / 2].as_secs_f64() * 1e3
-    });
+    let [amc, matcap] = times.map(|times| milliseconds(median(times)));
     let ratio = amc / matcap;
     println!(
         "samples {samples}, {format}, {cyclic:?}: AMC {amc:.2} ms, MatCap {matcap:.2} ms, ratio {ratio:.2}"
@@ -99,13 +100,13 @@ fn timed_frame(
     eye: &Eye,
     shading: &Shading,
 ) -> Duration {
-    let start = Instant::now();
-    let frame = renderer.draw_data(scene, eye, &view(), shading, offscreen.target()).expect("a frame");
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    offscreen.draw(&mut encoder, &frame, None);
-    gpu.queue.submit([encoder.finish()]);
-    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("a working device");
-    start.elapsed()
+    timed(|| {
+        let frame = renderer.draw_data(scene, eye, &view(), shading, offscreen.target()).expect("a frame");
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        offscreen.draw(&mut encoder, &frame, None);
+        gpu.queue.submit([encoder.finish()]);
+        gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("a working device");
+    })
 }
 
 fn view() -> View {

@@ -5,9 +5,9 @@
 
 use std::path::Path;
 use std::process::ExitCode;
-use std::time::Instant;
 
 use amc_core::mesh::{Garment, Unit};
+use studio_tests::timing::{is_wanted, median, milliseconds, timed};
 
 const LIMIT: f64 = 2.0;
 const ROUNDS: usize = 21;
@@ -18,8 +18,7 @@ const ISLANDS: usize = 8;
 const SIDE: usize = 72;
 
 fn main() -> ExitCode {
-    // `cargo test` runs benches too, unoptimised and once: nothing to measure there.
-    if !std::env::args().any(|argument| argument == "--bench") {
+    if !is_wanted() {
         return ExitCode::SUCCESS;
     }
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -27,33 +26,20 @@ fn main() -> ExitCode {
     amc_core::file::save_bytes(&path, &garment()).expect("the file is written");
     let (mut ours, mut theirs) = (Vec::new(), Vec::new());
     for _ in 0..ROUNDS {
-        theirs.push(seconds(|| import(&path)));
-        ours.push(seconds(|| open(&path)));
+        theirs.push(timed(|| import(&path)));
+        ours.push(timed(|| open(&path)));
     }
     let (ours, theirs) = (median(ours), median(theirs));
-    let ratio = ours / theirs;
+    let ratio = ours.as_secs_f64() / theirs.as_secs_f64();
     #[expect(clippy::print_stdout, reason = "a benchmark's figures are its output")]
     {
         println!(
             "open {:.1} ms, gltf import and readers {:.1} ms: ratio {ratio:.2}, limit {LIMIT}",
-            1e3 * ours,
-            1e3 * theirs
+            milliseconds(ours),
+            milliseconds(theirs)
         );
     }
     ExitCode::from(u8::from(ratio > LIMIT))
-}
-
-fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
-    let start = Instant::now();
-    let result = work();
-    let seconds = start.elapsed().as_secs_f64();
-    std::hint::black_box(result);
-    seconds
-}
-
-fn median(mut times: Vec<f64>) -> f64 {
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
 }
 
 fn open(path: &Path) -> Garment {

@@ -1,4 +1,5 @@
-//! Remakes the fidelity table of BENCHMARKS.md from a data folder: `cargo run --release -p studio-tests --example fidelity -- DATA`.
+//! Remakes the fidelity table of BENCHMARKS.md from a data folder:
+//! `cargo run --release -p studio-tests --example fidelity -- DATA`.
 //!
 //! The folder holds `ball-ideal/frames`, `ball-camera/frames` and `scenes/` (meshes, cameras and an independent path
 //! tracer's pictures). Nothing is tuned: every table is what `build` makes of the pictures with its defaults.

@@ -17,15 +17,17 @@ use wardrobe::pattern::Pattern;
 pub type Target = (&'static str, fn(&[u8]));
 
 /// All targets. A parser is one line here and one file in the fuzz crate.
-pub const TARGETS: [Target; 10] = [
+pub const TARGETS: [Target; 12] = [
     ("ktx2", ktx2),
     ("gltf", gltf),
+    ("gltf_beside", gltf_beside),
     ("obj", obj),
     ("picture", picture),
     ("session", session),
     ("camera", camera),
     ("reflectance", reflectance),
     ("exchange", exchanged),
+    ("slices", slices),
     ("pattern", pattern),
     ("project", project),
 ];
@@ -51,6 +53,36 @@ fn write_and_read(amc: &Amc) {
 pub fn gltf(bytes: &[u8]) {
     let no_files = |_: &str| Err(amc_core::Error::invalid("no files here"));
     if let Ok(mesh) = mesh::gltf::parse(bytes, &no_files) {
+        cut_into_panels(mesh);
+    }
+}
+
+/// Stands between the files of an input that is several.
+pub const NEXT_FILE: &[u8] = b"\0next file\0";
+
+fn files(bytes: &[u8]) -> Vec<&[u8]> {
+    let (mut files, mut rest) = (Vec::new(), bytes);
+    while let Some(end) = rest.windows(NEXT_FILE.len()).position(|window| window == NEXT_FILE) {
+        files.push(&rest[..end]);
+        rest = &rest[end + NEXT_FILE.len()..];
+    }
+    files.push(rest);
+    files
+}
+
+/// Gives the files one after the other, whatever they are asked for as.
+fn in_turn<'a>(files: &'a [&'a [u8]]) -> impl Fn(&str) -> amc_core::Result<Vec<u8>> + 'a {
+    let next = std::cell::Cell::new(0);
+    move |_| {
+        let file = files.get(next.replace(next.get() + 1));
+        file.map(|file| file.to_vec()).ok_or_else(|| amc_core::Error::invalid("no more files"))
+    }
+}
+
+/// glTF, and after [`NEXT_FILE`] each of the files beside it.
+pub fn gltf_beside(bytes: &[u8]) {
+    let files = files(bytes);
+    if let Ok(mesh) = mesh::gltf::parse(files[0], &in_turn(&files[1..])) {
         cut_into_panels(mesh);
     }
 }
@@ -116,6 +148,14 @@ pub fn reflectance(bytes: &[u8]) {
 /// Whatever single file an AMC may come in: slice atlases, MatCaps.
 pub fn exchanged(bytes: &[u8]) {
     if let Ok(amc) = exchange::parse(bytes) {
+        write_and_read(&amc);
+    }
+}
+
+/// A slice folder: the list, and after [`NEXT_FILE`] each of the pictures.
+pub fn slices(bytes: &[u8]) {
+    let files = files(bytes);
+    if let Ok(amc) = exchange::parse_slices(files[0], &in_turn(&files[1..])) {
         write_and_read(&amc);
     }
 }

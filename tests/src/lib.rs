@@ -1,4 +1,5 @@
-//! What crosses crates: comparing pictures, tables of known symmetry, fuzz targets, fidelity figures.
+//! What tests, benchmarks and fuzz targets share: cloths of known symmetry, fuzz targets, timing.
 
 pub mod fuzz_targets;
 pub mod materials;
+pub mod timing;

@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::ball;
 use super::cone::{Lens, Sight};
 use super::pictures::Plan;
-use super::reading::Reading;
+use super::reading::{First, Reading};
 use super::report::{Ball, BuildReport};
 use super::resample::Footprints;
 use super::session::Turn;
@@ -16,12 +16,15 @@ use super::slices::Slicing;
 use super::symmetry::{self, Analysis, DEFAULT_THRESHOLD};
 use super::turn::Spline;
 use crate::amc::{Amc, Frame, Symmetry, TableSize, TexelFormat};
-use crate::image::decode::Raster;
+use crate::image::decode::{Orientation, Raster};
 use crate::view_space::Azimuth;
 use crate::{Error, Progress, Result};
 
 /// The most bytes that the resampled texels of all pictures may take: 8 GiB.
 const MOST_STACK_BYTES: u64 = 8 << 30;
+
+/// The least share of the ball that must lie in the pictures: of less, most of the table would be made up.
+const LEAST_IN_PICTURE: f64 = 0.5;
 
 /// How to build.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,7 +86,8 @@ pub struct Built {
 ///
 /// # Errors
 /// A file is missing, broken or of another size than the rest, the session is faulty, there are fewer than 8
-/// pictures, no ball is found or the one given is not in the picture, an option makes no sense, or somebody cancelled.
+/// pictures, no ball is found or less than half of it lies in the pictures, an option makes no sense, or somebody
+/// cancelled.
 pub fn build(source: &Path, options: &BuildOptions, progress: &Progress<'_>) -> Result<Built> {
     check(options)?;
     let plan = Plan::of(source, options.turn)?;
@@ -108,10 +112,14 @@ pub fn build(source: &Path, options: &BuildOptions, progress: &Progress<'_>) -> 
         }
     };
     let frame = if options.horizontal_fov.is_some() { options.frame } else { Frame::Half };
+    let share = sight.share_within(frame, first.width(), first.height());
+    if share < LEAST_IN_PICTURE {
+        return Err(out_of_picture(&sight, share, &first).in_file(source));
+    }
     let covered = first.has_alpha;
     let footprints = Footprints::new(&sight, frame, options.side, first.width(), first.height(), covered);
     if footprints.texels.is_empty() {
-        return Err(Error::invalid("the ball given lies outside of the pictures").in_file(source));
+        return Err(Error::invalid("the ball is too small: no texel of it is seen").in_file(source));
     }
     let bytes = footprints.texels.len() as u64 * 6 * plan.pictures.len() as u64;
     if bytes > MOST_STACK_BYTES {
@@ -156,7 +164,7 @@ pub fn build(source: &Path, options: &BuildOptions, progress: &Progress<'_>) -> 
         azimuth: options.azimuth,
         frame,
         format: options.format,
-        notices: notices(&plan, options, size, &analysis, frame),
+        notices: notices(&plan, &first, options, size, &analysis, frame),
     };
     amc.metadata.capture = serde_json::to_value(&report)
         .map_err(|error| Error::invalid("the report cannot be kept as JSON").because(error))?;
@@ -177,6 +185,19 @@ fn check(options: &BuildOptions) -> Result<()> {
     Ok(())
 }
 
+fn out_of_picture(sight: &Sight, share: f64, first: &First<'_>) -> Error {
+    let (at, radius) = sight.ball();
+    Error::invalid(format!(
+        "{:.0} % of a ball of radius {radius:.0} pixels at {:.0}, {:.0} lies outside of the pictures, which have {} x {}; \
+         at most half may, for what no picture shows is made up",
+        100.0 * (1.0 - share),
+        at.x,
+        at.y,
+        first.width(),
+        first.height()
+    ))
+}
+
 /// The power of two nearest to `pictures / R`, the larger of two equally near; at least 8.
 fn nearest_slices(pictures: usize, symmetry: Symmetry) -> u32 {
     let wanted = pictures as f64 / f64::from(symmetry.order());
@@ -188,12 +209,19 @@ fn nearest_slices(pictures: usize, symmetry: Symmetry) -> u32 {
 
 fn notices(
     plan: &Plan,
+    first: &First<'_>,
     options: &BuildOptions,
     size: TableSize,
     analysis: &Analysis,
     frame: Frame,
 ) -> Vec<String> {
     let mut notices = plan.notices.clone();
+    if first.orientation != Orientation::UPRIGHT {
+        notices.push(format!(
+            "the pictures were turned as their Exif orientation, {}, says; pixels count in them as they are turned",
+            first.orientation.tag()
+        ));
+    }
     if !size.is_power_of_two() {
         notices.push(format!("the table's size {} x {} is no power of two", size.side(), size.slices()));
     }

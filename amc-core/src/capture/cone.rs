@@ -183,6 +183,22 @@ impl Sight {
         }
     }
 
+    /// The share of what the camera sees of the ball, in the table, that lies within a picture of this size.
+    pub(super) fn share_within(&self, frame: Frame, width: u32, height: u32) -> f64 {
+        // As many places as tell a hundredth.
+        const SIDE: u32 = 48;
+        let at = |k: u32| f64::from(2 * k + 1) / f64::from(SIDE) - 1.0;
+        let size = DVec2::new(f64::from(width), f64::from(height));
+        let (mut seen, mut within) = (0u32, 0u32);
+        for k in 0..SIDE * SIDE {
+            if let Some(Seen { pixel, .. }) = self.seen(DVec2::new(at(k % SIDE), at(k / SIDE)), frame) {
+                seen += 1;
+                within += u32::from(pixel.cmpge(DVec2::ZERO).all() && pixel.cmple(size).all());
+            }
+        }
+        f64::from(within) / f64::from(seen.max(1))
+    }
+
     /// Where the table's normal `n_xy`, in `frame`, is seen; `None` where it never is: outside of the disc, or in
     /// the rim of A/2 that frame `half` leaves.
     pub(super) fn seen(&self, n_xy: DVec2, frame: Frame) -> Option<Seen> {

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::pictures::{Plan, Planned};
 use super::resample::Footprints;
 use super::turn::Stack;
-use crate::image::decode::{MOST_BYTES, Raster, decode_reusing};
+use crate::image::decode::{MOST_BYTES, Orientation, Raster, decode_reusing};
 use crate::{Error, Progress, Result};
 
 /// The most pictures kept to find the ball in (an odd number: a cloth of even R shows each a different look), and the most bytes that they may take beyond the first few.
@@ -22,6 +22,7 @@ pub(super) struct First<'a> {
     path: &'a Path,
     size: [u32; 2],
     pub(super) has_alpha: bool,
+    pub(super) orientation: Orientation,
 }
 
 impl First<'_> {
@@ -80,6 +81,7 @@ impl<'a> Reading<'a> {
             path: &planned.path,
             size: [raster.width(), raster.height()],
             has_alpha: raster.has_alpha(),
+            orientation: raster.orientation(),
         };
         let kept = ((KEPT_BYTES / raster.bytes().max(1)) as usize).clamp(3, KEPT).min(pictures.len());
         let others: Vec<usize> = (1..kept).map(|k| k * pictures.len() / kept).collect();
@@ -144,10 +146,18 @@ impl<'a> Reading<'a> {
 }
 
 fn check_size(first: &First<'_>, path: &Path, raster: &Raster) -> Result<()> {
+    let name = first.path.file_name().unwrap_or(first.path.as_os_str()).to_string_lossy();
+    if raster.orientation() != first.orientation {
+        return Err(Error::invalid(format!(
+            "its Exif orientation is {}, that of {name} is {}; a camera that stands still has one: take the tag out of all",
+            raster.orientation().tag(),
+            first.orientation.tag()
+        ))
+        .in_file(path));
+    }
     if [raster.width(), raster.height()] == first.size {
         return Ok(());
     }
-    let name = first.path.file_name().unwrap_or(first.path.as_os_str()).to_string_lossy();
     Err(Error::invalid(format!(
         "{} x {} pixels, but {name} has {} x {}; all pictures must have one size",
         raster.width(),

@@ -1,6 +1,7 @@
 //! A folder with a picture of each slice (PNG for 8-bit tables, OpenEXR for half-float ones) and `slices.json`: the JSON
 //! of an AMC file and, under `slices`, the pictures' names in order. The top row of a picture is `n_y` near 1.
 
+use std::collections::HashSet;
 use std::path::{Component, Path};
 
 use super::sheet::Sheet;
@@ -22,31 +23,39 @@ pub(super) const FORM: Form = Form {
     write,
 };
 
+/// The most bytes of a list.
+const MOST_LIST_BYTES: u64 = 64 << 20;
+
 fn read(folder: &Path) -> Result<Amc> {
-    let list = folder.join(LIST);
-    let json = file::read(&list, 64 << 20)?;
-    let (header, names) = parse(&json).map_err(|error| error.in_file(&list))?;
+    let json = file::read(&folder.join(LIST), MOST_LIST_BYTES)?;
+    assemble(folder, &json, &|name| file::read(&folder.join(name), MOST_BYTES))
+}
+
+/// The table of a list and of the pictures that it names; `picture` gives their bytes, errors name them as files of
+/// `folder`.
+pub(super) fn assemble(folder: &Path, json: &[u8], picture: &dyn Fn(&str) -> Result<Vec<u8>>) -> Result<Amc> {
+    let in_list = |error: Error| error.in_file(&folder.join(LIST));
+    let (header, names) = parse(json).map_err(in_list)?;
     let slices = u32::try_from(names.len()).unwrap_or(u32::MAX);
     let mut size = None;
     let mut texels: Option<Texels> = None;
     for name in &names {
-        let path = folder.join(name);
-        let sheet = file::read(&path, MOST_BYTES).and_then(|bytes| Sheet::decode(&bytes));
-        let sheet = sheet.map_err(|error| error.in_file(&path))?;
+        let in_picture = |error: Error| error.in_file(&folder.join(name));
+        let sheet = picture(name).and_then(|bytes| Sheet::decode(&bytes)).map_err(in_picture)?;
         let expected = match size {
             Some(size) => size,
-            None => *size.insert(size_of(&sheet, slices).map_err(|error| error.in_file(&path))?),
+            None => *size.insert(size_of(&sheet, slices).map_err(in_picture)?),
         };
         let side = expected.side();
         if (sheet.width, sheet.height) != (side, side) {
             let message = format!("{} x {} pixels; {side} x {side} were expected", sheet.width, sheet.height);
-            return Err(Error::malformed(message).in_file(&path));
+            return Err(in_picture(Error::malformed(message)));
         }
-        append(&mut texels, sheet, side as usize).map_err(|error| error.in_file(&path))?;
+        append(&mut texels, sheet, side as usize).map_err(in_picture)?;
     }
     match (size, texels) {
         (Some(size), Some(texels)) => header.amc(size, texels),
-        _ => Err(Error::malformed("names no picture").at_element("slices").in_file(&list)),
+        _ => Err(in_list(Error::malformed("names no picture").at_element("slices"))),
     }
 }
 
@@ -66,13 +75,20 @@ fn parse(json: &[u8]) -> Result<(Header, Vec<String>)> {
         map.remove("slices").ok_or_else(|| Error::malformed("the key is missing").at_element("slices"))?;
     let names: Vec<String> = serde_json::from_value(names)
         .map_err(|error| Error::malformed(error.to_string()).at_element("slices"))?;
+    let mut seen = HashSet::new();
     for (k, name) in names.iter().enumerate() {
+        let path = Path::new(name);
         // A list from elsewhere must not reach out of its folder.
-        let plain = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
-        if !plain || name.is_empty() {
-            let message = format!("{name:?} is no file in the folder");
-            return Err(Error::malformed(message).at_element(format!("slices[{k}]")));
-        }
+        let plain = path.components().all(|part| matches!(part, Component::Normal(_)));
+        let fault = if !plain || name.is_empty() {
+            "is no file in the folder"
+        } else if !seen.insert(path) {
+            // One small picture could stand for any number of slices.
+            "is named twice: give every slice a picture of its own"
+        } else {
+            continue;
+        };
+        return Err(Error::malformed(format!("{name:?} {fault}")).at_element(format!("slices[{k}]")));
     }
     Ok((Header::from_json(map)?, names))
 }

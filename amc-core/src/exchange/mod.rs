@@ -126,6 +126,15 @@ pub fn parse(bytes: &[u8]) -> Result<Amc> {
     Ok(parse_as(&Source::File(bytes.to_owned()), None)?.1)
 }
 
+/// Reads an AMC out of a list of slices, the content of a `slices.json`, and the pictures that it names; `picture` gives
+/// the bytes of each.
+///
+/// # Errors
+/// The list or a picture is broken, or `picture` fails; the error names which.
+pub fn parse_slices(list: &[u8], picture: &dyn Fn(&str) -> Result<Vec<u8>>) -> Result<Amc> {
+    folder::assemble(Path::new(""), list, picture)
+}
+
 fn read_as(input: &Path, kind: Option<Kind>) -> Result<(Kind, Amc)> {
     let source =
         if input.is_dir() { Source::Folder(input) } else { Source::File(file::read(input, MOST_BYTES)?) };

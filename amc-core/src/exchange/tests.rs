@@ -4,6 +4,7 @@ use super::*;
 use crate::ErrorKind;
 use crate::amc::{Frame, Symmetry, TableSize, TexelFormat, Texels};
 use crate::image::{Picture, decode, encode};
+use crate::pseudo_random::PseudoRandom;
 use crate::view_space::Azimuth;
 
 fn amc(format: TexelFormat) -> Amc {
@@ -171,31 +172,76 @@ fn every_kind_has_a_form() {
 }
 
 #[test]
-fn mutated_atlases_and_lists_never_panic() {
+fn a_picture_is_a_slice_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, input) = saved(folder.path(), TexelFormat::Srgb8);
+    let slices = folder.path().join("slices");
+    convert(&input, &slices, Hints::default()).unwrap();
+    let list = slices.join("slices.json");
+    let json = std::fs::read_to_string(&list).unwrap();
+    file::save_bytes(&list, json.replace("slice-0003.png", "slice-0002.png").as_bytes()).unwrap();
+    let error = read(&slices).unwrap_err().to_string();
+    assert!(error.contains("slices.json: slices[3]: ") && error.contains("named twice"), "{error}");
+}
+
+/// Bytes changed, and perhaps cut short.
+fn mutated(bytes: &[u8], numbers: &mut PseudoRandom) -> Vec<u8> {
+    let mut mutated = bytes.to_vec();
+    for _ in 0..1 + numbers.below(3) {
+        mutated[numbers.below(bytes.len())] = numbers.byte();
+    }
+    mutated.truncate(if numbers.below(4) == 0 { numbers.below(bytes.len()) } else { bytes.len() });
+    mutated
+}
+
+#[test]
+fn mutated_atlases_never_panic() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let mut state = 7u64;
-    let mut random = move |below: usize| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as usize % below
-    };
+    let mut numbers = PseudoRandom::new(7);
+    let mut read = 0;
     for (format, name) in [(TexelFormat::Srgb8, "a.png"), (TexelFormat::Half, "a.atlas.exr")] {
         let (_, input) = saved(folder, format);
         let output = folder.join(name);
         convert(&input, &output, Hints::default()).unwrap();
         let bytes = std::fs::read(&output).unwrap();
         for _ in 0..1500 {
-            let mut mutated = bytes.clone();
-            for _ in 0..1 + random(3) {
-                let at = random(bytes.len());
-                mutated[at] = random(256) as u8;
-            }
-            mutated.truncate(if random(4) == 0 { random(bytes.len()) } else { bytes.len() });
-            let source = Source::File(mutated);
-            if let Some(form) = FORMS.iter().find(|form| (form.is)(&source)) {
-                let _ = (form.read)(&source);
+            if let Ok(amc) = parse(&mutated(&bytes, &mut numbers)) {
+                assert!(amc.size().texels() > 0);
+                read += 1;
             }
         }
+    }
+    assert!(read > 10, "the good way was taken {read} times");
+}
+
+#[test]
+fn mutated_lists_and_slices_never_panic_and_what_is_read_is_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut numbers = PseudoRandom::new(8);
+    for format in [TexelFormat::Srgb8, TexelFormat::Half] {
+        let (amc, input) = saved(folder.path(), format);
+        let slices = folder.path().join(format!("{format:?}"));
+        convert(&input, &slices, Hints::default()).unwrap();
+        let list = std::fs::read(slices.join("slices.json")).unwrap();
+        let beside = |name: &str| file::read(&slices.join(name), 1 << 20);
+        assert_eq!(parse_slices(&list, &beside).unwrap(), amc);
+        let mut read = 0;
+        for k in 0..1200 {
+            let spoilt_list = if k % 2 == 0 { mutated(&list, &mut numbers) } else { list.clone() };
+            let spoilt_slice = numbers.below(amc.size().slices() as usize);
+            let seed = numbers.below(1 << 16) as u32;
+            let picture = |name: &str| {
+                let bytes = beside(name)?;
+                let spoilt = k % 2 == 1 && name.contains(&format!("{spoilt_slice:04}"));
+                Ok(if spoilt { mutated(&bytes, &mut PseudoRandom::new(seed)) } else { bytes })
+            };
+            if let Ok(again) = parse_slices(&spoilt_list, &picture) {
+                assert_eq!(again.size(), amc.size());
+                read += 1;
+            }
+        }
+        assert!(read > 10, "{format:?}: the good way was taken {read} times");
     }
 }
 

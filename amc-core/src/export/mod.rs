@@ -16,6 +16,8 @@ use panel_mesh::PanelMesh;
 /// Who wrote a file.
 const GENERATOR: &str = concat!("AMC Studio ", env!("CARGO_PKG_VERSION"));
 
+/// Refuses what cannot be written, before a file is touched.
+///
 /// # Errors
 /// Arrays and indices that do not fit together.
 fn check(garment: &Garment) -> Result<()> {

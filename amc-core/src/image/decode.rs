@@ -5,6 +5,7 @@
 
 mod exr;
 mod jpeg;
+mod orientation;
 mod png;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -14,6 +15,7 @@ use std::sync::LazyLock;
 use super::Picture;
 use crate::color::{LINEAR_FROM_SRGB8, linear_from_srgb};
 use crate::{Error, Result};
+pub(crate) use orientation::Orientation;
 
 /// The most pixels that a picture may have: 8192 x 8192.
 pub const MOST_PIXELS: u64 = 1 << 26;
@@ -49,13 +51,15 @@ impl Samples {
     }
 }
 
-/// A picture as its file holds it. Row 0 is the top; alpha is straight.
+/// A picture as its file holds it, turned as the camera was held where the file says it. Row 0 is the top; alpha is
+/// straight.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Raster {
     width: u32,
     height: u32,
     channels: u32,
     samples: Samples,
+    orientation: Orientation,
 }
 
 impl Raster {
@@ -76,7 +80,7 @@ impl Raster {
                 samples.len()
             )));
         }
-        Ok(Self { width, height, channels, samples })
+        Ok(Self { width, height, channels, samples, orientation: Orientation::UPRIGHT })
     }
 
     /// Columns.
@@ -102,6 +106,11 @@ impl Raster {
             Samples::F32(_) => 4,
         };
         self.samples.len() as u64 * sample
+    }
+
+    /// How the picture has been turned since it was read.
+    pub(crate) fn orientation(&self) -> Orientation {
+        self.orientation
     }
 
     /// The samples.
@@ -166,7 +175,7 @@ impl Raster {
 /// The formats that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// JPEG, baseline or progressive, grey or colour.
+    /// JPEG, baseline or progressive, grey or colour; turned and mirrored as its Exif tag `Orientation` says.
     Jpeg,
     /// PNG, every colour type and depth; of an animation the first picture.
     Png,

@@ -4,7 +4,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::draft::{Draft, DraftPart};
-use super::measure::{LANES, Lanes};
+use super::lanes::{Edges, LANES, Lanes};
 use super::{Mesh, normals};
 use crate::{Error, Result};
 
@@ -44,15 +44,14 @@ impl Findings {
 
 /// Some triangles, one array per coordinate.
 struct Batch {
-    /// Edges from the first corner: the first edge's x, y, z, then the second's.
-    edges: [Lanes; 6],
+    edges: Edges,
     /// Sums of the corners' normals: x, y, z.
     normals: [Lanes; 3],
 }
 
 impl Batch {
     fn new() -> Self {
-        Self { edges: [[0.0; LANES]; 6], normals: [[0.0; LANES]; 3] }
+        Self { edges: Edges::NONE, normals: [[0.0; LANES]; 3] }
     }
 
     /// Takes at most [`LANES`] triangles; the other lanes have no area.
@@ -61,12 +60,8 @@ impl Batch {
             *self = Self::new();
         }
         for (i, &triangle) in triangles.iter().take(LANES).enumerate() {
-            let [p, q, r] = triangle.map(|vertex| draft.positions[vertex as usize]);
+            self.edges.set(i, triangle.map(|vertex| draft.positions[vertex as usize]));
             let [a, b, c] = triangle.map(|vertex| draft.normals[vertex as usize]);
-            let edges = [q - p, r - p].map(|edge| edge.to_array());
-            for (lanes, &x) in self.edges.iter_mut().zip(edges.as_flattened()) {
-                lanes[i] = x;
-            }
             for (lanes, x) in self.normals.iter_mut().zip((a + b + c).to_array()) {
                 lanes[i] = x;
             }
@@ -75,11 +70,11 @@ impl Batch {
 
     /// Twice the areas, zero where [`vector_area`] finds none; and whether the normals look away from the front.
     fn areas(&self) -> (Lanes, [bool; LANES]) {
-        let ([px, py, pz, qx, qy, qz], [nx, ny, nz]) = (&self.edges, &self.normals);
+        let [nx, ny, nz] = &self.normals;
         let (mut areas, mut turned) = ([0.0; LANES], [false; LANES]);
         for i in 0..LANES {
-            let (px, py, pz, qx, qy, qz) = (px[i], py[i], pz[i], qx[i], qy[i], qz[i]);
-            let (x, y, z) = (py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx);
+            let [px, py, pz, qx, qy, qz] = self.edges.0.each_ref().map(|lanes| lanes[i]);
+            let [x, y, z] = self.edges.cross(i);
             let square = x * x + y * y + z * z;
             let lengths = (px * px + py * py + pz * pz) * (qx * qx + qy * qy + qz * qz);
             areas[i] = if square > (NO_ANGLE * NO_ANGLE) * lengths { square.sqrt() } else { 0.0 };

@@ -4,7 +4,8 @@ use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
 use super::Garment;
-use super::measure::{Batch, LANES, Lanes, larger, smaller};
+use super::lanes::{LANES, Lanes, larger, smaller};
+use super::measure::Batch;
 
 /// How far a panel's map from the flat pattern to the surface is from a uniform scale.
 ///
@@ -54,7 +55,7 @@ struct Maps {
 fn maps(batch: &Batch, areas: &Lanes) -> Maps {
     let zeros = [0.0; LANES];
     let mut out = Maps { larger: zeros, shear_key: zeros, scale: zeros };
-    let ([px, py, pz, qx, qy, qz], [au, av, bu, bv]) = (&batch.edges, &batch.uv_edges);
+    let ([px, py, pz, qx, qy, qz], [au, av, bu, bv]) = (&batch.edges.0, &batch.uv_edges);
     for i in 0..LANES {
         let (px, py, pz, qx, qy, qz) = (px[i], py[i], pz[i], qx[i], qy[i], qz[i]);
         let (au, av, bu, bv) = (au[i], av[i], bu[i], bv[i]);
@@ -227,6 +228,7 @@ impl Bins {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pseudo_random::PseudoRandom;
 
     /// A grid of `n` x `n` squares over the unit square of the UV map, put on a surface.
     fn grid(n: u32, surface: impl Fn(Vec2) -> Vec3) -> Distortion {
@@ -281,18 +283,14 @@ mod tests {
 
     #[test]
     fn percentiles_by_weight_agree_with_sorting() {
-        let mut state = 1u32;
-        let mut random = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 8) as f32 / (1 << 24) as f32
-        };
+        let mut numbers = PseudoRandom::new(1);
         let percentiles = |items: &[(f32, f32)]| {
             let (values, weights) = items.iter().copied().unzip();
             Weighted { values, weights }.percentiles()
         };
         for outlier in [1.0, 1e6, 1e30] {
             let mut items: Vec<(f32, f32)> =
-                (0..20_000).map(|_| (random().powi(3), 0.1 + random())).collect();
+                (0..20_000).map(|_| (numbers.unit().powi(3), 0.1 + numbers.unit())).collect();
             items[77].0 = outlier;
             let found = percentiles(&items);
             items.sort_by(|a, b| a.0.total_cmp(&b.0));

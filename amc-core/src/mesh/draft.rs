@@ -37,15 +37,21 @@ pub(super) struct DraftPart {
     pub(super) has_uvs: bool,
 }
 
-/// Whether a position is finite and within the limit.
+/// Refuses a position that is not finite or beyond the limit.
 pub(super) fn check_position(position: Vec3) -> Result<()> {
     if !position.is_finite() {
         return Err(Error::invalid("a position that is not a finite number"));
     }
-    if position.abs().max_element() > COORDINATE_LIMIT {
+    if !is_within_limit(position) {
         return Err(Error::invalid(format!("a coordinate beyond the limit of {COORDINATE_LIMIT:e}")));
     }
     Ok(())
+}
+
+/// Whether a position is finite and within the limit.
+pub(super) fn is_within_limit(position: Vec3) -> bool {
+    // What is not a number fails the comparison too.
+    position.abs().cmple(Vec3::splat(COORDINATE_LIMIT)).all()
 }
 
 /// A name from a file, fit to be shown: one line, no control characters, not too long.

@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
+use super::lanes::{Edges, LANES, Lanes, larger};
 use super::panel::PanelFlags;
 
 /// Twice the signed area of a triangle in the flat pattern; zero where it is lost in rounding.
@@ -27,17 +28,6 @@ fn lost_area(squares: f32, largest: f32) -> f32 {
     larger(1e-6 * squares, f32::EPSILON * largest * (2.0 * squares).sqrt())
 }
 
-/// Unlike `f32::max` this is one instruction.
-#[inline(always)]
-pub(super) fn larger(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
-}
-
-#[inline(always)]
-pub(super) fn smaller(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
-}
-
 /// The figures of a panel.
 #[derive(Debug, Default)]
 pub(super) struct Figures {
@@ -51,24 +41,18 @@ pub(super) struct Figures {
     pub(super) uv_box: (Vec2, Vec2),
 }
 
-/// Triangles looked at together, so that the compiler can use vector instructions.
-pub(super) const LANES: usize = 16;
-
 /// Triangles that one task measures.
 const CHUNK: usize = 16 * 1024;
 
 /// Triangles whose figures are summed in single precision.
 const SINGLE: usize = 64 * LANES;
 
-/// One number of some triangles.
-pub(super) type Lanes = [f32; LANES];
-
 /// Some triangles, one array per coordinate.
 pub(super) struct Batch {
     /// Their first corners: x, y, z.
     pub(super) corner: [Lanes; 3],
-    /// Edges in space from the first corner: the first edge's x, y, z, then the second's.
-    pub(super) edges: [Lanes; 6],
+    /// Edges in space.
+    pub(super) edges: Edges,
     /// Edges in the flat pattern: the first edge's u, v, then the second's.
     pub(super) uv_edges: [Lanes; 4],
     /// The largest coordinate in the flat pattern, unsigned.
@@ -78,7 +62,7 @@ pub(super) struct Batch {
 impl Batch {
     pub(super) fn new() -> Self {
         let zeros = [0.0; LANES];
-        Self { corner: [zeros; 3], edges: [zeros; 6], uv_edges: [zeros; 4], largest_uv: zeros }
+        Self { corner: [zeros; 3], edges: Edges::NONE, uv_edges: [zeros; 4], largest_uv: zeros }
     }
 
     /// Takes at most [`LANES`] triangles; the other lanes have no area.
@@ -87,15 +71,12 @@ impl Batch {
             *self = Self::new();
         }
         for (i, &triangle) in triangles.iter().take(LANES).enumerate() {
-            let [p, q, r] = triangle.map(|vertex| positions[vertex as usize]);
+            let corners = triangle.map(|vertex| positions[vertex as usize]);
             let [a, b, c] = triangle.map(|vertex| uvs[vertex as usize]);
-            for (lanes, x) in self.corner.iter_mut().zip(p.to_array()) {
+            for (lanes, x) in self.corner.iter_mut().zip(corners[0].to_array()) {
                 lanes[i] = x;
             }
-            let edges = [q - p, r - p].map(|edge| edge.to_array());
-            for (lanes, &x) in self.edges.iter_mut().zip(edges.as_flattened()) {
-                lanes[i] = x;
-            }
+            self.edges.set(i, corners);
             let uv_edges = [b - a, c - a].map(|edge| edge.to_array());
             for (lanes, &x) in self.uv_edges.iter_mut().zip(uv_edges.as_flattened()) {
                 lanes[i] = x;
@@ -106,10 +87,8 @@ impl Batch {
 
     /// Areas, square metres.
     pub(super) fn areas(&self) -> Lanes {
-        let [px, py, pz, qx, qy, qz] = &self.edges;
         std::array::from_fn(|i| {
-            let (x, y, z) =
-                (py[i] * qz[i] - pz[i] * qy[i], pz[i] * qx[i] - px[i] * qz[i], px[i] * qy[i] - py[i] * qx[i]);
+            let [x, y, z] = self.edges.cross(i);
             0.5 * (x * x + y * y + z * z).sqrt()
         })
     }
@@ -155,7 +134,8 @@ impl Sums {
                     mirrored[i] += u32::from(uv_areas[i] < 0.0);
                 }
                 for (axis, moment) in moment.iter_mut().enumerate() {
-                    let (corner, p, q) = (&batch.corner[axis], &batch.edges[axis], &batch.edges[axis + 3]);
+                    let (corner, p, q) =
+                        (&batch.corner[axis], &batch.edges.0[axis], &batch.edges.0[axis + 3]);
                     for i in 0..LANES {
                         moment[i] += areas[i] * (corner[i] + (p[i] + q[i]) * (1.0 / 3.0));
                     }
@@ -211,6 +191,7 @@ pub(super) fn measure(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pseudo_random::PseudoRandom;
 
     const NO_BOX: (Vec2, Vec2) = (Vec2::ZERO, Vec2::ZERO);
 
@@ -262,15 +243,11 @@ mod tests {
 
     #[test]
     fn lanes_and_single_triangles_agree_on_uv_areas() {
-        let mut state = 7u32;
-        let mut random = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 8) as f32 / (1 << 24) as f32
-        };
+        let mut numbers = PseudoRandom::new(7);
         for exponent in 0..40 {
             let offset = Vec2::splat(0.3 * 2f32.powi(exponent - 20));
             let uvs: Vec<Vec2> =
-                (0..3 * LANES).map(|_| offset + Vec2::new(random(), random()) * 0.01).collect();
+                (0..3 * LANES).map(|_| offset + Vec2::new(numbers.unit(), numbers.unit()) * 0.01).collect();
             let triangles: Vec<[u32; 3]> = (0..LANES as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
             let mut batch = Batch::new();
             batch.fill(&vec![Vec3::ZERO; uvs.len()], &uvs, &triangles);

@@ -15,6 +15,7 @@ mod forest;
 pub mod gltf;
 mod identity;
 mod islands;
+mod lanes;
 mod measure;
 #[cfg(test)]
 mod mutations;
@@ -22,6 +23,8 @@ mod normals;
 pub mod obj;
 mod panel;
 mod pattern_piece;
+mod pick;
+pub(crate) mod ray_tree;
 mod read;
 mod sections;
 mod split;
@@ -34,6 +37,7 @@ pub use distortion::{Distortion, Percentiles};
 pub(crate) use measure::uv_area;
 pub use panel::{Garment, Panel, PanelFlags};
 pub use pattern_piece::{PatternPiece, Seam};
+pub use pick::Picker;
 pub use read::{FILE_LIMIT, Resolve, read, suffixes};
 pub use unit::Unit;
 

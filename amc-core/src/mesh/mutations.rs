@@ -1,17 +1,12 @@
 //! Spoilt copies of a file, the same ones every time.
 
 use super::Mesh;
+use crate::pseudo_random::PseudoRandom;
 
 /// Calls `look` with `count` mutations of `bytes`: bytes changed, removed, doubled, cut short.
 pub(super) fn each(bytes: &[u8], count: u32, mut look: impl FnMut(&[u8])) {
-    let mut state = 0x2545_F491_4F6C_DD1D_u64;
-    let mut random = move |below: usize| {
-        // xorshift64* (Vigna 2016).
-        state ^= state >> 12;
-        state ^= state << 25;
-        state ^= state >> 27;
-        (state.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 33) as usize % below.max(1)
-    };
+    let mut numbers = PseudoRandom::new(0);
+    let mut random = |below: usize| numbers.below(below);
     const TELLING: &[u8] = b"0123456789-/.eE \n\\#{}[]\":,\0\xFFvftn";
     for _ in 0..count {
         let mut spoilt = bytes.to_vec();

@@ -45,7 +45,7 @@ pub struct Seam<Partner> {
 /// out, with a notice.
 ///
 /// Every panel of a part has its grain and unit. A seam goes to the panel of its part that is nearest to its ends. Mirror
-/// partners are parts of one panel each.
+/// partners are parts of one panel each: which of several mirrors which is not said.
 pub(super) fn assign(garment: &mut Garment, parts: &[Part], part_of: &[u32]) {
     if parts.iter().all(|part| part.pattern == PatternPiece::default()) {
         return;
@@ -90,8 +90,11 @@ impl Resolver<'_> {
         for &panel in panels {
             (pieces[panel].grain, pieces[panel].uv_unit) = (grain, uv_unit);
         }
-        if let (Some(name), &[panel]) = (&pattern.mirror, panels) {
-            pieces[panel].mirror = self.mirror(part, panel, name);
+        if let (Some(name), &[first, ..]) = (&pattern.mirror, panels) {
+            match self.mirror(name, panels) {
+                Ok(partner) => pieces[first].mirror = Some(partner),
+                Err(fault) => self.faults.push(format!("{}: {fault}", part.name)),
+            }
         }
         for seam in pattern.seams.iter().filter(|_| !panels.is_empty()) {
             self.seams += 1;
@@ -115,15 +118,13 @@ impl Resolver<'_> {
         number.filter(|&number| is_sound(number))
     }
 
-    fn mirror(&mut self, part: &Part, panel: usize, name: &str) -> Option<usize> {
-        match self.by_name.get(name).copied() {
-            Some(&[partner]) if partner != panel => Some(partner),
-            // Which of several panels is meant is not said.
-            Some([_, _, ..]) => None,
-            _ => {
-                self.faults.push(format!("{}: the mirror partner '{name}' is not there", part.name));
-                None
-            }
+    /// The panel that mirrors a part of these panels, or why there is none.
+    fn mirror(&self, name: &str, panels: &[usize]) -> Result<usize, String> {
+        match (panels, self.by_name.get(name).copied().unwrap_or_default()) {
+            (_, []) => Err(format!("the mirror partner '{name}' is not there")),
+            (&[panel], &[partner]) if partner != panel => Ok(partner),
+            ([_], [_]) => Err("it is named as its own mirror partner".to_owned()),
+            _ => Err(format!("it or its mirror partner '{name}' is in several islands of the UV map")),
         }
     }
 

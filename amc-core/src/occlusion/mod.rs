@@ -12,17 +12,12 @@ pub use cache::cached;
 
 use std::f32::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Duration;
 
-use glam::{Vec2, Vec3, Vec3A};
-use obvhs::BvhBuildParams;
-use obvhs::cwbvh::CwBvh;
-use obvhs::cwbvh::builder::build_cwbvh;
-use obvhs::ray::Ray;
-use obvhs::rt_triangle::RtTriangle;
+use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
 use crate::mesh::Garment;
+use crate::mesh::ray_tree::{Placement, RayTree};
 use crate::{Error, Progress, Result};
 
 /// How occlusion is measured.
@@ -47,8 +42,6 @@ const CHUNK: usize = 256;
 /// How far a ray's origin leaves its vertex, as a share of the distance to the middle of its triangles, both towards
 /// that middle and along the normal.
 const STEP: f32 = 0.02;
-/// The garment is scaled into a cube of this half side: the tree overlooks what is nearer to a ray's origin than 1e-4.
-const HALF_SIDE: f64 = 4096.0;
 /// The least step along the normal, in the scaled garment: some hundred roundings.
 const LEAST_STEP: f32 = 0.04;
 
@@ -115,27 +108,19 @@ fn unit(bits: u32) -> f32 {
     (bits >> 8) as f32 / (1 << 24) as f32
 }
 
-/// The garment scaled into the cube of half side [`HALF_SIDE`], in a tree.
+/// The garment, placed as its tree wants it.
 struct Scene {
-    tree: CwBvh,
-    /// In the order of the tree's leaves.
-    triangles: Vec<RtTriangle>,
+    tree: RayTree,
     /// Where each vertex's rays start, on the side of its normal and on the other.
     origins: Vec<[Vec3; 2]>,
 }
 
 impl Scene {
     fn new(garment: &Garment) -> Self {
-        let positions = scaled(&garment.positions);
-        let origins = origins(garment, &positions);
-        let triangle = |corners: &[u32; 3]| {
-            let [a, b, c] = corners.map(|corner| Vec3A::from(positions[corner as usize]));
-            RtTriangle::new(a, b, c)
-        };
-        let unordered: Vec<RtTriangle> = garment.triangles.iter().map(triangle).collect();
-        let tree = build_cwbvh(&unordered, BvhBuildParams::medium_build(), &mut Duration::default());
-        let triangles = tree.primitive_indices.iter().map(|&index| unordered[index as usize]).collect();
-        Self { tree, triangles, origins }
+        let placement = Placement::of(&garment.positions);
+        let positions: Vec<Vec3> = garment.positions.iter().map(|&p| placement.place(p)).collect();
+        let tree = RayTree::new(&positions, &garment.triangles);
+        Self { tree, origins: origins(garment, &positions) }
     }
 
     fn open_sky(&self, origin: Vec3, normal: Vec3, samples: &[Vec2]) -> f32 {
@@ -148,20 +133,10 @@ impl Scene {
             let radius = radius_squared.sqrt();
             let direction =
                 (right * cos + up * sin) * radius + normal * (1.0 - radius_squared).max(0.0).sqrt();
-            let ray = Ray::new_inf(origin.into(), direction.into());
-            self.tree.ray_traverse_miss(ray, |ray, leaf| self.triangles[leaf].intersect(ray))
+            self.tree.is_open(origin, direction)
         });
         open.count() as f32 / samples.len() as f32
     }
-}
-
-fn scaled(positions: &[Vec3]) -> Vec<Vec3> {
-    let start = (glam::DVec3::INFINITY, glam::DVec3::NEG_INFINITY);
-    let (low, high) =
-        positions.iter().fold(start, |(low, high), p| (low.min(p.as_dvec3()), high.max(p.as_dvec3())));
-    let (middle, half) = ((low + high) / 2.0, ((high - low) / 2.0).max_element());
-    let scale = if half > 0.0 { HALF_SIDE / half } else { 1.0 };
-    positions.iter().map(|p| ((p.as_dvec3() - middle) * scale).as_vec3()).collect()
 }
 
 fn origins(garment: &Garment, positions: &[Vec3]) -> Vec<[Vec3; 2]> {

@@ -32,7 +32,8 @@ pub struct Orientation {
 }
 
 impl Orientation {
-    fn rotation(self) -> DMat3 {
+    /// The turn as a matrix.
+    pub fn rotation(self) -> DMat3 {
         DMat3::from_rotation_z(self.roll.into())
             * DMat3::from_rotation_x(self.pitch.into())
             * DMat3::from_rotation_y(self.yaw.into())
@@ -141,15 +142,42 @@ fn check_rigid(matrix: &DMat4) -> Result<()> {
 
 /// The least box around points.
 #[derive(Debug, Clone, Copy)]
-struct Bounds {
+struct Extent {
     low: DVec3,
     high: DVec3,
 }
 
-impl Bounds {
+impl Extent {
     fn of(positions: impl Iterator<Item = DVec3>) -> Self {
         let nothing = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
-        positions.fold(nothing, |bounds, p| Self { low: bounds.low.min(p), high: bounds.high.max(p) })
+        positions.fold(nothing, |extent, p| Self { low: extent.low.min(p), high: extent.high.max(p) })
+    }
+}
+
+/// What a view is fitted to: the sphere about the centre of the least box around the vertices that holds them all.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    /// Object space, metres.
+    pub centre: DVec3,
+    /// Metres.
+    pub radius: f64,
+}
+
+impl Bounds {
+    /// Of positions in object space, metres.
+    ///
+    /// # Errors
+    /// No positions, all of them at one point, or not finite.
+    pub fn of(positions: &[Vec3]) -> Result<Self> {
+        check_positions(positions)?;
+        let Extent { low, high } = Extent::of(positions.iter().map(|p| p.as_dvec3()));
+        let centre = (low + high) / 2.0;
+        let squares = positions.iter().map(|p| p.as_dvec3().distance_squared(centre));
+        let radius = squares.fold(0.0, f64::max).sqrt();
+        if (radius as f32) < f32::MIN_POSITIVE {
+            return Err(Error::invalid("all vertices stand at one point: there is nothing to see"));
+        }
+        Ok(Self { centre, radius })
     }
 }
 
@@ -174,26 +202,23 @@ impl View {
     /// No vertices, all of them at one point, or not finite; a picture that is empty or over the limits of [`View`].
     pub fn fitted(positions: &[Vec3], orientation: Orientation, width: u32, height: u32) -> Result<Self> {
         check_size(width, height)?;
-        check_positions(positions)?;
-        let Bounds { low, high } = Bounds::of(positions.iter().map(|p| p.as_dvec3()));
-        let centre = (low + high) / 2.0;
-        let squares = positions.iter().map(|p| p.as_dvec3().distance_squared(centre));
-        let radius = squares.fold(0.0, f64::max).sqrt();
+        let view = Self::around(Bounds::of(positions)?, orientation.rotation(), width, height);
+        view.check()?;
+        Ok(view)
+    }
+
+    /// As [`View::fitted`], around `bounds` and turned by `rotation`; not checked.
+    pub fn around(bounds: Bounds, rotation: DMat3, width: u32, height: u32) -> Self {
+        let Bounds { centre, radius } = bounds;
         let half_height = radius / (f64::from(width) / f64::from(height)).min(1.0);
-        if (radius as f32) < f32::MIN_POSITIVE {
-            return Err(Error::invalid("all vertices stand at one point: there is nothing to see"));
-        }
-        let turn = DMat4::from_mat3(orientation.rotation());
-        let view = Self {
-            object_to_view: (turn * DMat4::from_translation(-centre)).as_mat4(),
+        Self {
+            object_to_view: (DMat4::from_mat3(rotation) * DMat4::from_translation(-centre)).as_mat4(),
             projection: Projection::Orthographic { half_height: half_height as f32 },
             width,
             height,
             near: (radius * -1.01) as f32,
             far: (radius * 1.01) as f32,
-        };
-        view.check()?;
-        Ok(view)
+        }
     }
 
     /// The view of an exact camera: the object as it is in its file, turned about the file's origin. `positions` in object
@@ -213,7 +238,7 @@ impl View {
         check_positions(positions)?;
         check_rigid(&camera.world_to_view)?;
         let object_to_view = camera.world_to_view * DMat4::from_mat3(orientation.rotation());
-        let seen = Bounds::of(positions.iter().map(|p| object_to_view.transform_point3(p.as_dvec3())));
+        let seen = Extent::of(positions.iter().map(|p| object_to_view.transform_point3(p.as_dvec3())));
         let (near, far) = depths(camera.projection, -seen.high.z, -seen.low.z);
         let object_to_view: Mat4 = object_to_view.as_mat4();
         let view = Self { object_to_view, projection: camera.projection, width, height, near, far };

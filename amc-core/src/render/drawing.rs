@@ -11,8 +11,8 @@ use crate::{Error, Result};
 
 impl Drawing {
     /// A garment with a direction for every vertex (unit, object space, perpendicular to the normal), an occlusion for
-    /// every vertex (share of the sky that is open on its front and on its back; none: all of it), and a cloth for every panel, asked for by the
-    /// panel's index.
+    /// every vertex (share of the sky that is open on its front and on its back; none: all of it), and a cloth for
+    /// every panel, asked for by the panel's index.
     ///
     /// # Errors
     /// Lists of different lengths; triangles, panels or cloths that refer to what is not there.

@@ -12,13 +12,14 @@ pub mod gpu;
 pub mod shade;
 mod view;
 
-pub use camera::{Camera, Orientation};
-pub use view::{Projection, View};
+pub use camera::{Bounds, Camera, Orientation};
+pub use view::{Projection, Ray, View};
 
 use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
+use serde::{Deserialize, Serialize};
 
 use crate::amc::Amc;
 use crate::image::Picture;
@@ -90,7 +91,8 @@ pub enum Mode {
 }
 
 /// How the cyclic coordinate of the azimuth gets from vertices to fragments (paper, section 6.2).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Cyclic {
     /// Interpolated as it is: streaks where a triangle crosses the wrap (the paper's figure 9).
     Naive,
@@ -102,7 +104,8 @@ pub enum Cyclic {
 }
 
 /// How normals and tangents are turned where the line of sight is not the optical axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Perspective {
     /// Not at all.
     Off,

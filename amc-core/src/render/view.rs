@@ -1,6 +1,6 @@
 //! From where a drawing is seen.
 
-use glam::{Mat3, Mat4, Vec3};
+use glam::{Mat3, Mat4, Vec2, Vec3};
 
 use crate::{Error, Result};
 
@@ -17,6 +17,15 @@ pub enum Projection {
         /// Vertical field of view, radians.
         fov_y: f32,
     },
+}
+
+/// A half line: where a line of sight meets the near plane, and where it goes from there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ray {
+    /// Where it starts, metres.
+    pub origin: Vec3,
+    /// Unit.
+    pub direction: Vec3,
 }
 
 /// A view: where the object stands before the camera, the projection, and the picture's size.
@@ -120,6 +129,26 @@ impl View {
         }
     }
 
+    /// The line of sight through the picture's point `at`, in object space. `at` in pixels from the top-left corner of the
+    /// picture: pixel centres are at +0.5.
+    pub fn ray(&self, at: Vec2) -> Ray {
+        let size = Vec2::new(self.width as f32, self.height as f32);
+        let slope = (at * 2.0 - size) / size.y * Vec2::new(1.0, -1.0);
+        let (origin, direction) = match self.projection {
+            Projection::Orthographic { half_height } => {
+                ((slope * half_height).extend(-self.near), Vec3::NEG_Z)
+            }
+            Projection::Perspective { fov_y } => {
+                let towards = (slope * (fov_y / 2.0).tan()).extend(-1.0);
+                (towards * self.near, towards.normalize_or(Vec3::NEG_Z))
+            }
+        };
+        // The inverse of a rotation is its transpose.
+        let to_object = self.rotation().transpose();
+        let shift = self.object_to_view.w_axis.truncate();
+        Ray { origin: to_object * (origin - shift), direction: to_object * direction }
+    }
+
     /// The unit vector from a point of view space towards the eye.
     pub fn towards_eye(&self, p: Vec3) -> Vec3 {
         match self.projection {
@@ -146,4 +175,32 @@ pub(super) fn check_size(width: u32, height: u32) -> Result<()> {
         View::SIDE_LIMIT,
         View::PIXEL_LIMIT
     )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ray_runs_through_everything_that_is_drawn_at_its_pixel() {
+        let object_to_view = Mat4::from_translation(Vec3::new(0.3, -0.2, -4.0))
+            * Mat4::from_rotation_y(0.7)
+            * Mat4::from_rotation_x(-0.4);
+        for projection in
+            [Projection::Orthographic { half_height: 1.5 }, Projection::Perspective { fov_y: 0.9 }]
+        {
+            let view = View { object_to_view, projection, width: 320, height: 200, near: 2.0, far: 6.0 };
+            for at in [Vec2::new(0.5, 0.5), Vec2::new(160.0, 100.0), Vec2::new(301.0, 27.0)] {
+                let ray = view.ray(at);
+                for distance in [0.0, 0.5, 3.0] {
+                    let point = ray.origin + ray.direction * distance;
+                    let clip = view.view_to_clip() * view.object_to_view * point.extend(1.0);
+                    let on_picture = clip.truncate() / clip.w;
+                    let seen = (on_picture.truncate() * Vec2::new(0.5, -0.5) + 0.5) * Vec2::new(320.0, 200.0);
+                    assert!((seen - at).length() < 2e-3, "{projection:?} {at} {seen}");
+                    assert!(distance > 0.0 || on_picture.z.abs() < 1e-4);
+                }
+            }
+        }
+    }
 }

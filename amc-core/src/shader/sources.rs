@@ -20,6 +20,7 @@ static EMBEDDED: &[(&str, &str)] = embedded![
     "color",
     "cyclic",
     "facing",
+    "mark",
     "mode_amc",
     "mode_ball",
     "mode_normals",
@@ -32,6 +33,7 @@ static EMBEDDED: &[(&str, &str)] = embedded![
     "vertex",
     "view",
     "view_space",
+    "viewport",
 ];
 
 /// The text of one shader file.

@@ -1,4 +1,4 @@
-//! Without a command: the first look. The bundled satin as a picture.
+//! Without a display: the first look. The bundled satin as a picture.
 
 use std::path::Path;
 
@@ -37,7 +37,7 @@ pub(super) fn run(output: &Output) -> Outcome {
     let result = serde_json::json!({ "picture": file, "renderer": renderer });
     output.result(&result, || {
         format!(
-            "The bundled satin on {SCENE}: {}\n\
+            "There is no display to open the window on; the bundled satin on {SCENE}: {}\n\
              Try also: amc-studio render {SCENE} -o picture.png --amc fabric:changeant --yaw 40",
             file.display()
         )

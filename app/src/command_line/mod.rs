@@ -13,6 +13,7 @@ mod progress;
 mod render;
 mod tangents;
 mod values;
+mod window;
 
 use std::ffi::OsString;
 use std::io::Write as _;
@@ -45,14 +46,15 @@ impl From<amc_core::Error> for Failure {
 
 /// Anisotropic MatCap from the command line.
 ///
-/// Without a command it bakes the bundled satin, renders something in it and says where the picture is.
+/// Without a command it opens the window; where there is no display it renders the bundled shirt and says where the picture
+/// is.
 #[derive(Debug, Parser)]
 #[command(name = "amc-studio", version, about, args_conflicts_with_subcommands = true)]
 struct Arguments {
     /// Print results as JSON.
     #[arg(long, global = true)]
     json: bool,
-    /// Projects, meshes, fabrics or sessions to open in the window (not available in this version).
+    /// Projects, meshes and fabrics to open in the window.
     files: Vec<PathBuf>,
     #[command(subcommand)]
     command: Option<Command>,
@@ -114,8 +116,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 fn dispatch(arguments: Arguments, output: &Output) -> Outcome {
     let not_available = |what: &str| Err(Failure::NotAvailable(what.to_owned()));
     match arguments.command {
-        None if arguments.files.is_empty() => demo::run(output),
-        None => not_available("opening files in a window"),
+        None => window::run(arguments.files, output),
         Some(Command::Render(arguments)) => render::run(&arguments, output),
         Some(Command::Build(arguments)) => build::run(&arguments, output),
         Some(Command::Bake(arguments)) => bake::run(&arguments, output),

@@ -1,6 +1,6 @@
 //! The fabrics of a scene: each file read once, the bundled ones baked on first use and kept.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use amc_core::amc::Amc;
@@ -18,40 +18,37 @@ const FABRIC_PREFIX: &str = "fabric:";
 pub(crate) struct Fabrics {
     tables: Vec<Arc<Amc>>,
     /// What each was asked for as.
-    names: Vec<String>,
+    names: Vec<PathBuf>,
 }
 
 impl Fabrics {
     /// The number of the fabric that `named` is: a file or `fabric:NAME`. It is read or baked the first time it is asked
     /// for.
     pub(crate) fn find(&mut self, named: &Path, progress: &Progress<'_>) -> Result<usize> {
-        match named.to_str().and_then(|text| text.strip_prefix(FABRIC_PREFIX)) {
-            Some(name) => self.bundled(reflectance::bundled(name)?, progress),
-            None => self.number(&named.to_string_lossy(), || Amc::read(named)),
+        if let Some(number) = self.names.iter().position(|known| known == named) {
+            return Ok(number);
         }
+        self.tables.push(Arc::new(load_fabric(named, progress)?));
+        self.names.push(named.to_owned());
+        Ok(self.tables.len() - 1)
     }
 
     /// The number of the fabric for whoever asked for none.
     pub(crate) fn default_fabric(&mut self, progress: &Progress<'_>) -> Result<usize> {
-        self.bundled(BUNDLED[0], progress)
-    }
-
-    fn bundled(&mut self, fabric: Bundled, progress: &Progress<'_>) -> Result<usize> {
-        self.number(&format!("{FABRIC_PREFIX}{}", fabric.name), || bundled_fabric(fabric, progress))
-    }
-
-    fn number(&mut self, name: &str, make: impl FnOnce() -> Result<Amc>) -> Result<usize> {
-        if let Some(number) = self.names.iter().position(|known| known == name) {
-            return Ok(number);
-        }
-        self.tables.push(Arc::new(make()?));
-        self.names.push(name.to_owned());
-        Ok(self.tables.len() - 1)
+        self.find(Path::new(&format!("{FABRIC_PREFIX}{}", BUNDLED[0].name)), progress)
     }
 
     /// The tables, in their order.
     pub(crate) fn into_tables(self) -> Vec<Arc<Amc>> {
         self.tables
+    }
+}
+
+/// A fabric by its file, or a bundled one by `fabric:NAME`.
+pub(crate) fn load_fabric(named: &Path, progress: &Progress<'_>) -> Result<Amc> {
+    match named.to_str().and_then(|text| text.strip_prefix(FABRIC_PREFIX)) {
+        Some(name) => bundled_fabric(reflectance::bundled(name)?, progress),
+        None => Amc::read(named),
     }
 }
 

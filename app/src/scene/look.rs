@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use amc_core::direction::{Direction, Field, Source};
-use amc_core::mesh::Garment;
+use amc_core::mesh::{Garment, Panel};
 use amc_core::{Error, Progress, Result};
 use glam::Vec3;
 
@@ -32,35 +32,14 @@ pub(crate) fn panel_looks(
     mut fabrics: Option<&mut Fabrics>,
     progress: &Progress<'_>,
 ) -> Result<Vec<PanelLook>> {
+    check_ids(garment, options)?;
     let mut looks = vec![PanelLook::default(); garment.panels.len()];
-    let mut angles = vec![None; garment.panels.len()];
-    let whole: Vec<bool> = garment.panels.iter().map(|panel| panel.takes_fabric).collect();
-    let every_panel_has_its_own = |panel: usize| {
-        options.iter().any(|option| option.amc.is_some() && names(option, &garment.panels[panel].id))
-    };
     if let Some(fabrics) = fabrics.as_deref_mut() {
-        let needs_default = (0..looks.len()).any(|panel| whole[panel] && !every_panel_has_its_own(panel));
-        if needs_default {
-            let number = match amc {
-                Some(named) => fabrics.find(named, progress)?,
-                None => fabrics.default_fabric(progress)?,
-            };
-            for (look, takes_fabric) in looks.iter_mut().zip(&whole) {
-                look.fabric = takes_fabric.then_some(number);
-            }
-        }
+        give_all_cloth(&mut looks, garment, amc, options, fabrics, progress)?;
     }
+    let mut angles = vec![None; garment.panels.len()];
     let centre = centre(garment);
     for option in options {
-        if let Some(id) = &option.id
-            && !garment.panels.iter().any(|panel| panel.id == *id)
-        {
-            let known: Vec<_> = garment.panels.iter().map(|panel| panel.id.as_str()).collect();
-            return Err(Error::invalid(format!(
-                "there is no panel '{id}'; the panels are {}",
-                known.join(", ")
-            )));
-        }
         let fabric = match (&option.amc, fabrics.as_deref_mut()) {
             (Some(named), Some(fabrics)) => Some(fabrics.find(named, progress)?),
             _ => None,
@@ -86,6 +65,42 @@ pub(crate) fn panel_looks(
         };
     }
     Ok(looks)
+}
+
+/// Refuses options for panels that are not there.
+fn check_ids(garment: &Garment, options: &[PanelOption]) -> Result<()> {
+    let there = |id: &String| garment.panels.iter().any(|panel| panel.id == *id);
+    match options.iter().filter_map(|option| option.id.as_ref()).find(|id| !there(id)) {
+        Some(id) => {
+            let known: Vec<_> = garment.panels.iter().map(|panel| panel.id.as_str()).collect();
+            Err(Error::invalid(format!("there is no panel '{id}'; the panels are {}", known.join(", "))))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Gives the fabric `amc` to every panel that takes one. Where every panel has an option of its own it is not even read.
+fn give_all_cloth(
+    looks: &mut [PanelLook],
+    garment: &Garment,
+    amc: Option<&Path>,
+    options: &[PanelOption],
+    fabrics: &mut Fabrics,
+    progress: &Progress<'_>,
+) -> Result<()> {
+    let has_its_own =
+        |panel: &Panel| options.iter().any(|option| option.amc.is_some() && names(option, &panel.id));
+    if !garment.panels.iter().any(|panel| panel.takes_fabric && !has_its_own(panel)) {
+        return Ok(());
+    }
+    let number = match amc {
+        Some(named) => fabrics.find(named, progress)?,
+        None => fabrics.default_fabric(progress)?,
+    };
+    for (look, panel) in looks.iter_mut().zip(&garment.panels) {
+        look.fabric = panel.takes_fabric.then_some(number);
+    }
+    Ok(())
 }
 
 fn names(option: &PanelOption, id: &str) -> bool {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use amc_core::mesh::gltf;
+use amc_core::mesh::{self, Unit};
 use amc_core::{Error, Result};
 use glam::DVec3;
 
@@ -82,13 +82,11 @@ impl Entry {
     pub fn draped(&self, folder: &Path) -> Result<(CutGarment, Draped)> {
         let file = self.file(folder);
         let cut = self.cut()?;
-        let bytes = std::fs::read(&file).map_err(|error| Error::io("cannot read", error).in_file(&file))?;
-        let mesh = gltf::parse(&bytes, &|_| Err(Error::invalid("a garment of the collection is one file")))
-            .map_err(|error| error.in_file(&file))?;
+        let mesh = mesh::read(&file, Unit::Metre)?;
         let count: usize = cut.pieces.iter().map(|piece| piece.flat.len()).sum();
         if mesh.positions.len() != count {
             let message = format!(
-                "{} vertices, but the pattern is cut into {count}: make the file anew",
+                "{} vertices, but the pattern is cut into {count}: make the file anew with `wardrobe collection`",
                 mesh.positions.len()
             );
             return Err(Error::invalid(message).in_file(&file));

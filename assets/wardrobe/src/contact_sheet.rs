@@ -68,7 +68,7 @@ pub fn contact_sheet(
     Ok(sheet)
 }
 
-/// Lays a picture (premultiplied) over the sheet at its place.
+/// Lays a picture over the sheet at its place.
 fn lay(sheet: &mut Picture, picture: &Picture, left: u32, top: u32) {
     let (width, across) = (sheet.width() as usize, picture.width() as usize);
     let rows = picture.pixels().chunks_exact(across);
@@ -76,7 +76,7 @@ fn lay(sheet: &mut Picture, picture: &Picture, left: u32, top: u32) {
     for (row, place) in rows.zip(places) {
         for (under, over) in place[left as usize..].iter_mut().zip(row) {
             for (under, over_colour) in under[..3].iter_mut().zip(over) {
-                *under = *under * (1.0 - over[3]) + over_colour;
+                *under += (over_colour - *under) * over[3];
             }
         }
     }

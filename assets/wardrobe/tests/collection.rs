@@ -128,22 +128,23 @@ fn cloth_is_sheared_and_stretched_as_cloth_is() {
 }
 
 /// Joules that the energy may rise by in the time of the test: contacts and friction do a little work of their own.
-const MOST_RISE: f64 = 2e-3;
+const MOST_RISE: f64 = 2e-4;
 
-/// Metres per second of the fastest vertex.
-const ALMOST_STILL: f64 = 0.05;
+/// Seconds for which each is left lying, without anything that holds it.
+const LYING: f64 = 0.1;
 
 #[test]
 fn drapes_lie_still_and_their_energy_does_not_rise() {
+    let options = Options::default();
     for entry in &COLLECTION {
         let (cut, draped) = entry.draped(&folder()).unwrap();
         let body = Body::new(cut.figure);
-        let rest = linger(&cut, &draped, &body, 0.05, &Options::default(), &Progress::none()).unwrap();
+        let rest = linger(&cut, &draped, &body, LYING, &options, &Progress::none()).unwrap();
         let totals: Vec<f64> = rest.energies.iter().map(Energy::total).collect();
         assert!(totals.len() > 2, "{}", entry.name);
         let rise = totals[totals.len() - 1] - totals[0];
         assert!(rise < MOST_RISE, "{}: {rise} J", entry.name);
-        assert!(rest.fastest < ALMOST_STILL, "{}: {} m/s", entry.name, rest.fastest);
+        assert!(rest.is_still(&options), "{}: {} m/s", entry.name, rest.fastest);
     }
 }
 

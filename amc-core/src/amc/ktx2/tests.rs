@@ -195,11 +195,8 @@ fn no_cut_and_no_mutation_panics_and_every_cut_is_refused() {
     for length in 0..bytes.len() {
         assert!(Amc::from_ktx2(&bytes[..length]).is_err(), "cut at {length}");
     }
-    let mut state = 1u64;
-    let mut random = |below: usize| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as usize % below
-    };
+    let mut numbers = crate::pseudo_random::PseudoRandom::new(1);
+    let mut random = |below: usize| numbers.below(below);
     let mut read = 0;
     for _ in 0..20_000 {
         let mut mutated = bytes.clone();

@@ -102,6 +102,27 @@ fn options_that_make_no_sense() {
 }
 
 #[test]
+fn a_ball_may_leave_the_pictures_by_less_than_half() {
+    let folder = small();
+    // The pictures have 100 x 96 pixels.
+    let attempt = |sphere: (f64, f64, f64)| {
+        let options = BuildOptions { side: 16, sphere: Some(sphere), ..BuildOptions::default() };
+        build(folder.path(), &options, &Progress::none())
+    };
+    for (x, y, radius) in [(48.0, 48.0, 48.0), (4.0, 48.0, 30.0), (50.0, 48.0, 62.0)] {
+        assert!(attempt((x, y, radius)).is_ok(), "{x} {y} {radius}");
+    }
+    // A circle beyond a line at a fifth of its radius from the middle; nearly all of one; a square much smaller than the ball.
+    for (sphere, outside) in
+        [((-6.0, 48.0, 30.0), 62.6), ((-28.0, 48.0, 30.0), 99.0), ((50.0, 48.0, 5000.0), 100.0)]
+    {
+        let message = attempt(sphere).unwrap_err().to_string();
+        let told = message.rsplit(": ").next().unwrap().split(' ').next().unwrap();
+        assert!((told.parse::<f64>().unwrap() - outside).abs() < 1.5, "{outside}: {message}");
+    }
+}
+
+#[test]
 fn a_cancelled_build_stops() {
     let folder = small();
     let cancelled = AtomicBool::new(false);

@@ -19,10 +19,11 @@ use piece::Piece;
 ///
 /// - `.glb`: glTF 2.0, a mesh of one primitive per panel, with `POSITION`, `NORMAL`, `TANGENT` (w is -1 where the UVs are
 ///   mirrored), `TEXCOORD_0`, the pattern turned so that +u is the panel's direction, `TEXCOORD_1`, the pattern as it was
-///   drawn (both with v down, as glTF has it), and in `extras` the panel's `id`, `name`, `source` and `angle_deg`. Programs
-///   that make their own tangents from `TEXCOORD_0` so find the same direction.
+///   drawn (both with v down, as glTF has it), and in `extras` the panel's `id`, `name`, `source`, `angle_deg` and
+///   `takes_fabric`. Programs that make their own tangents from `TEXCOORD_0` so find the same direction.
 /// - `.obj`: a group per panel. OBJ has no tangents, so the UVs are turned as in `TEXCOORD_0`, v up.
-/// - `.json`: per panel its id, name, source, angle, mean direction, and the position and tangent of each vertex.
+/// - `.json`: per panel its id, name, source, angle in degrees, whether it takes a fabric, mean direction, how many
+///   vertices' directions were filled in and whether all were made up, and the position and tangent of each vertex.
 ///
 /// `tangents` are those of `directions`, one per panel (see [`crate::direction::tangents`]). Metres, Y up.
 ///

@@ -5,7 +5,7 @@ use zune_core::colorspace::ColorSpace;
 use zune_core::options::DecoderOptions;
 use zune_jpeg::JpegDecoder;
 
-use super::{Raster, Samples, check_size};
+use super::{Orientation, Raster, Samples, check_size};
 use crate::{Error, Result};
 
 /// A blank baseline picture takes 6 bits for 16 x 16 pixels of three bytes: 1024 to 1. Twice that.
@@ -32,5 +32,7 @@ pub(super) fn decode(bytes: &[u8], mut buffer: Vec<u8>) -> Result<Raster> {
     decoder.set_options(options.jpeg_set_out_colorspace(space));
     buffer.resize(size as usize, 0);
     decoder.decode_into(&mut buffer).map_err(broken)?;
-    Raster::new(width as u32, height as u32, channels as u32, Samples::U8(buffer))
+    let raster = Raster::new(width as u32, height as u32, channels as u32, Samples::U8(buffer))?;
+    let orientation = decoder.exif().map_or(Orientation::UPRIGHT, |exif| Orientation::of_exif(exif));
+    Ok(orientation.turn(raster))
 }

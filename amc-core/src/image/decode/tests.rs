@@ -1,4 +1,6 @@
+use super::orientation::tests::exif;
 use super::*;
+use crate::pseudo_random::PseudoRandom;
 
 fn png_bytes(
     width: u32,
@@ -33,17 +35,55 @@ fn exr_bytes(width: usize, height: usize, pixel: impl Fn(usize, usize) -> [f32; 
     bytes
 }
 
-/// A grey JPEG of 8 x 8 pixels, all of one value, made by hand: each table holds the one code it needs.
+/// A grey JPEG of 8 x 8 pixels, all of one value.
 fn grey_jpeg() -> Vec<u8> {
+    // 0, then 400 in nine bits (110010000), then 0, then ones: the level is 128 + 400 / 8 = 178.
+    hand_made_jpeg(8, &[0b0110_0100, 0b0001_1111])
+}
+
+/// A grey JPEG of 8 x 16 pixels, its upper half of one value and its lower half of another.
+fn two_greys_jpeg() -> Vec<u8> {
+    // As above; then 0, -400 in nine bits (001101111), 0, ones: 50 less.
+    hand_made_jpeg(16, &[0b0110_0100, 0b0000_0011, 0b0111_1011])
+}
+
+/// A grey JPEG, 8 pixels wide, made by hand: each table holds the one code it needs.
+fn hand_made_jpeg(height: u8, scan: &[u8]) -> Vec<u8> {
     let mut bytes = vec![0xff, 0xd8, 0xff, 0xdb, 0, 67, 0];
     bytes.extend([1; 64]);
-    bytes.extend([0xff, 0xc0, 0, 11, 8, 0, 8, 0, 8, 1, 1, 0x11, 0]);
+    bytes.extend([0xff, 0xc0, 0, 11, 8, 0, height, 0, 8, 1, 1, 0x11, 0]);
     // DC: one code of one bit, category 9; AC: one code of one bit, the end of the block.
     bytes.extend([0xff, 0xc4, 0, 20, 0x00, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 9]);
     bytes.extend([0xff, 0xc4, 0, 20, 0x10, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
-    // 0, then 400 in nine bits (110010000), then 0, then ones: the level is 128 + 400 / 8 = 178.
-    bytes.extend([0xff, 0xda, 0, 8, 1, 1, 0, 0, 63, 0, 0b0110_0100, 0b0001_1111, 0xff, 0xd9]);
+    bytes.extend([0xff, 0xda, 0, 8, 1, 1, 0, 0, 63, 0]);
+    bytes.extend(scan);
+    bytes.extend([0xff, 0xd9]);
     bytes
+}
+
+/// The JPEG with a segment APP1 that holds Exif data.
+fn with_exif(jpeg: &[u8], exif: &[u8]) -> Vec<u8> {
+    let length = (2 + 6 + exif.len() as u16).to_be_bytes();
+    [&jpeg[..2], &[0xff, 0xe1], &length, b"Exif\0\0", exif, &jpeg[2..]].concat()
+}
+
+#[test]
+fn a_jpeg_is_turned_as_its_exif_orientation_says() {
+    let decoded = |exif: &[u8]| decode(&with_exif(&two_greys_jpeg(), exif)).unwrap();
+    assert_eq!(decoded(b"nothing of the sort"), decode(&two_greys_jpeg()).unwrap());
+    let level = |raster: &Raster, x: u32, y: u32| match raster.samples() {
+        Samples::U8(samples) => samples[(y * raster.width() + x) as usize],
+        _ => panic!("8 bits"),
+    };
+    // The file's first row is seen at the bottom, then on the right, then on the left.
+    for (tag, size, bright, dark) in
+        [(3, (8, 16), (4, 12), (4, 3)), (6, (16, 8), (12, 4), (3, 4)), (8, (16, 8), (3, 4), (12, 4))]
+    {
+        let turned = decoded(&exif(tag == 6, 3, tag));
+        assert_eq!((turned.width(), turned.height()), size, "{tag}");
+        assert_eq!((level(&turned, bright.0, bright.1), level(&turned, dark.0, dark.1)), (178, 128), "{tag}");
+        assert_eq!(turned.orientation().tag(), tag);
+    }
 }
 
 #[test]
@@ -141,6 +181,7 @@ fn cut_and_damaged_files_are_errors_or_pictures_and_never_panics() {
     let noise = |x: usize, y: usize| ((x * 37 + y * 101) % 64) as f32 / 64.0;
     let files = [
         grey_jpeg(),
+        with_exif(&two_greys_jpeg(), &exif(true, 3, 6)),
         png_bytes(16, 16, ::png::ColorType::Rgb, ::png::BitDepth::Eight, &[9; 768]),
         exr_bytes(16, 16, |x, y| [noise(x, y); 4]),
     ];
@@ -148,13 +189,12 @@ fn cut_and_damaged_files_are_errors_or_pictures_and_never_panics() {
         for length in 0..file.len() - 16 {
             assert!(decode(&file[..length]).is_err(), "{length} of {}", file.len());
         }
-        let mut seed = 1u32;
+        let mut numbers = PseudoRandom::new(1);
         for _ in 0..2000 {
             let mut damaged = file.clone();
             for _ in 0..3 {
-                seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                let at = (seed >> 8) as usize % damaged.len();
-                damaged[at] = (seed >> 3) as u8;
+                let at = numbers.below(damaged.len());
+                damaged[at] = numbers.byte();
             }
             if let Err(error) = decode(&damaged) {
                 assert!(!error.to_string().contains("beyond what"), "a decoder panicked: {error}");

@@ -8,6 +8,7 @@ use gltf::accessor::sparse::IndexType;
 use gltf::accessor::{DataType, Dimensions};
 use rayon::prelude::*;
 
+use super::container::Buffers;
 use crate::{Error, Result};
 
 /// Items that one task converts.
@@ -22,7 +23,7 @@ struct Items<'b> {
 
 impl<'b> Items<'b> {
     fn new(
-        buffers: &'b [Cow<'_, [u8]>],
+        buffers: &'b Buffers<'_>,
         view: &gltf::buffer::View<'_>,
         offset: usize,
         count: usize,
@@ -57,7 +58,7 @@ impl<'b> Items<'b> {
 /// to `out` after `convert`.
 pub(super) fn vectors<const N: usize, V>(
     accessor: &Accessor<'_>,
-    buffers: &[Cow<'_, [u8]>],
+    buffers: &Buffers<'_>,
     out: &mut Vec<V>,
     convert: impl Fn(V) -> V + Sync,
 ) -> Result<()>
@@ -101,7 +102,7 @@ where
 }
 
 /// Indices of any width.
-pub(super) fn indices<'b>(accessor: &Accessor<'_>, buffers: &'b [Cow<'_, [u8]>]) -> Result<Cow<'b, [u32]>> {
+pub(super) fn indices<'b>(accessor: &Accessor<'_>, buffers: &'b Buffers<'_>) -> Result<Cow<'b, [u32]>> {
     if accessor.dimensions() != Dimensions::Scalar {
         return Err(Error::malformed("indices that are not scalars"));
     }
@@ -120,7 +121,7 @@ pub(super) fn indices<'b>(accessor: &Accessor<'_>, buffers: &'b [Cow<'_, [u8]>])
 }
 
 /// The items of a buffer in which they lie as they do in memory; none where they do not.
-fn as_they_lie<'b, V: Pod>(accessor: &Accessor<'_>, buffers: &'b [Cow<'_, [u8]>]) -> Result<Option<&'b [V]>> {
+fn as_they_lie<'b, V: Pod>(accessor: &Accessor<'_>, buffers: &'b Buffers<'_>) -> Result<Option<&'b [V]>> {
     let size = size_of::<V>();
     let Some(view) = accessor.view().filter(|view| {
         cfg!(target_endian = "little")
@@ -137,7 +138,7 @@ fn as_they_lie<'b, V: Pod>(accessor: &Accessor<'_>, buffers: &'b [Cow<'_, [u8]>]
 /// All items of an accessor, components of `W` bytes turned by `decode`; sparse ones in their places.
 fn read<T: Copy + Default, const N: usize, const W: usize>(
     accessor: &Accessor<'_>,
-    buffers: &[Cow<'_, [u8]>],
+    buffers: &Buffers<'_>,
     decode: impl Fn([u8; W]) -> T,
 ) -> Result<Vec<[T; N]>> {
     let (count, size) = (accessor.count(), N * W);
@@ -157,7 +158,7 @@ fn read<T: Copy + Default, const N: usize, const W: usize>(
                 items.iter().map(item).collect()
             }
         }
-        (None, Some(_)) if count <= buffers.iter().map(|buffer| buffer.len()).sum() => {
+        (None, Some(_)) if count <= buffers.bytes() => {
             vec![[T::default(); N]; count]
         }
         (None, Some(_)) => {

@@ -1,6 +1,8 @@
 //! The GLB container, the JSON and the buffers.
 
-use std::borrow::Cow;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+use std::path::PathBuf;
 
 use base64::Engine as _;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
@@ -95,35 +97,85 @@ pub(super) fn document(json: &[u8]) -> Result<Document> {
     })
 }
 
-/// The content of every buffer.
-pub(super) fn buffers<'a>(
-    document: &Document,
+/// What the buffers hold. Several of them may name one file, or the one binary chunk: it is in memory once.
+pub(super) struct Buffers<'a> {
     chunk: Option<&'a [u8]>,
-    resolve: Resolve<'_>,
-) -> Result<Vec<Cow<'a, [u8]>>> {
-    let read = |buffer: gltf::Buffer<'_>| {
+    /// Read from files beside the mesh's, or decoded.
+    owned: Vec<Vec<u8>>,
+    /// One per buffer.
+    contents: Vec<Content>,
+}
+
+#[derive(Clone, Copy)]
+enum Content {
+    Chunk,
+    /// Index in [`Buffers::owned`].
+    Owned(usize),
+}
+
+impl<'a> Buffers<'a> {
+    /// Reads all buffers.
+    ///
+    /// # Errors
+    /// A buffer that cannot be read, or is shorter than the document says; the error names it.
+    pub(super) fn read(document: &Document, chunk: Option<&'a [u8]>, resolve: Resolve<'_>) -> Result<Self> {
+        let mut buffers = Self { chunk, owned: Vec::new(), contents: Vec::new() };
+        // Paths compare by their components: `a//b` is `a/b`.
+        let mut files: HashMap<PathBuf, usize> = HashMap::new();
+        for buffer in document.buffers() {
+            let read = buffers.append(&buffer, &mut files, resolve);
+            read.map_err(|error| error.at_element(format!("buffer {}", buffer.index())))?;
+        }
+        Ok(buffers)
+    }
+
+    fn append(
+        &mut self,
+        buffer: &gltf::Buffer<'_>,
+        files: &mut HashMap<PathBuf, usize>,
+        resolve: Resolve<'_>,
+    ) -> Result<()> {
         let content = match buffer.source() {
-            Source::Bin => {
-                Cow::Borrowed(chunk.ok_or_else(|| Error::malformed("no binary chunk in the file"))?)
-            }
-            Source::Uri(uri) => Cow::Owned(match uri.strip_prefix("data:") {
-                Some(data) => decode_data(data)?,
-                None => resolve(&decode_percent(uri)?)?,
+            Source::Bin => Content::Chunk,
+            Source::Uri(uri) => Content::Owned(match uri.strip_prefix("data:") {
+                Some(data) => self.keep(decode_data(data)?),
+                None => {
+                    let name = decode_percent(uri)?;
+                    match files.entry(PathBuf::from(&name)) {
+                        Entry::Occupied(known) => *known.get(),
+                        Entry::Vacant(new) => *new.insert(self.keep(resolve(&name)?)),
+                    }
+                }
             }),
         };
-        if content.len() < buffer.length() {
-            return Err(Error::malformed(format!("{} bytes, not {}", content.len(), buffer.length())));
+        self.contents.push(content);
+        let length = match self.get(buffer.index()) {
+            Some(bytes) => bytes.len(),
+            None => return Err(Error::malformed("no binary chunk in the file")),
+        };
+        if length < buffer.length() {
+            return Err(Error::malformed(format!("{length} bytes, not {}", buffer.length())));
         }
-        Ok(content)
-    };
-    let place = |index: usize| format!("buffer {index}");
-    document
-        .buffers()
-        .map(|buffer| {
-            let index = buffer.index();
-            read(buffer).map_err(|error| error.at_element(place(index)))
-        })
-        .collect()
+        Ok(())
+    }
+
+    fn keep(&mut self, bytes: Vec<u8>) -> usize {
+        self.owned.push(bytes);
+        self.owned.len() - 1
+    }
+
+    /// The content of a buffer.
+    pub(super) fn get(&self, index: usize) -> Option<&[u8]> {
+        match *self.contents.get(index)? {
+            Content::Chunk => self.chunk,
+            Content::Owned(owned) => self.owned.get(owned).map(Vec::as_slice),
+        }
+    }
+
+    /// Bytes altogether: what they justify to allocate, however many buffers refer to the same.
+    pub(super) fn bytes(&self) -> usize {
+        self.chunk.map_or(0, <[u8]>::len) + self.owned.iter().map(Vec::len).sum::<usize>()
+    }
 }
 
 fn decode_data(data: &str) -> Result<Vec<u8>> {

@@ -47,6 +47,7 @@ mod tests;
 use super::draft::Draft;
 use super::{Mesh, Resolve, check};
 use crate::{Error, Result};
+use container::Buffers;
 use extras_reader::ExtrasReader;
 
 /// Reads a glTF or GLB file; its numbers are taken for metres. `resolve` gives the content of a file beside it that
@@ -58,11 +59,11 @@ use extras_reader::ExtrasReader;
 pub fn parse(bytes: &[u8], resolve: Resolve<'_>) -> Result<Mesh> {
     let (json, chunk) = container::split(bytes)?;
     let document = container::document(json)?;
-    let buffers = container::buffers(&document, chunk, resolve)?;
+    let buffers = Buffers::read(&document, chunk, resolve)?;
     let mut draft = Draft::default();
     let mut left_out = 0;
     // An instance costs a few bytes of JSON and a whole mesh of memory.
-    let budget = bytes.len() + buffers.iter().map(|buffer| buffer.len()).sum::<usize>() + (1 << 20);
+    let budget = bytes.len() + buffers.bytes() + (1 << 20);
     let instances = scene::instances(&document)?;
     let mut extras = ExtrasReader::new(budget);
     primitive::reserve(&mut draft, &instances, budget);

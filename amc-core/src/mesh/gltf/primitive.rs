@@ -5,15 +5,17 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use bytemuck::Pod;
 use glam::{Mat3, Mat4, Vec2, Vec3};
 use gltf::mesh::Mode;
 use rayon::prelude::*;
 
 use super::accessor::{indices, vectors};
+use super::container::Buffers;
 use super::extras_reader::ExtrasReader;
 use super::scene::Instance;
 use crate::mesh::Part;
-use crate::mesh::draft::{COORDINATE_LIMIT, Draft, DraftPart, check_position, clean_name};
+use crate::mesh::draft::{Draft, DraftPart, check_position, clean_name, is_within_limit};
 use crate::mesh::extras::Extras;
 use crate::mesh::fabric_words::names_no_fabric;
 use crate::{Error, Result};
@@ -43,7 +45,7 @@ pub(super) fn append(
     draft: &mut Draft,
     primitive: &gltf::Primitive<'_>,
     instance: &Instance<'_>,
-    buffers: &[Cow<'_, [u8]>],
+    buffers: &Buffers<'_>,
     extras: &mut ExtrasReader,
 ) -> Result<bool> {
     if !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
@@ -63,9 +65,13 @@ pub(super) fn append(
     if let Some(accessor) = &uvs {
         append_uvs(draft, accessor, buffers).map_err(named("UVs"))?;
     }
-    let fits = |given: bool, length: usize| !given || length == vertices + count;
-    if !fits(normals.is_some(), draft.normals.len()) || !fits(uvs.is_some(), draft.uvs.len()) {
-        return Err(Error::malformed("normals or UVs in another number than positions"));
+    for (what, given, length) in
+        [("normals", normals.is_some(), draft.normals.len()), ("UVs", uvs.is_some(), draft.uvs.len())]
+    {
+        if given && length != vertices + count {
+            let message = format!("{} {what} for {count} positions", length - vertices);
+            return Err(Error::malformed(message));
+        }
     }
     if draft.positions.len() > u32::MAX as usize {
         return Err(Error::too_large("more vertices than 32 bits can number"));
@@ -73,12 +79,6 @@ pub(super) fn append(
     draft.normals.resize(draft.positions.len(), Vec3::ZERO);
     draft.uvs.resize(draft.positions.len(), Vec2::ZERO);
     let corners = primitive.indices().map(|a| indices(&a, buffers)).transpose().map_err(named("indices"))?;
-    let part = DraftPart {
-        part: describe(primitive, instance, extras),
-        has_normals: normals.is_some(),
-        has_uvs: uvs.is_some(),
-        ..DraftPart::default()
-    };
     let corners = corners.unwrap_or_else(|| Cow::Owned((0..count as u32).collect()));
     let mirrored = instance.to_world.determinant() < 0.0;
     append_triangles(draft, primitive.mode(), &corners, vertices..vertices + count, mirrored)?;
@@ -90,9 +90,11 @@ pub(super) fn append(
     }
     draft.file_vertices += count;
     draft.parts.push(DraftPart {
+        part: describe(primitive, instance, extras),
         vertices: vertices..draft.positions.len(),
         triangles: triangles..draft.triangles.len(),
-        ..part
+        has_normals: normals.is_some(),
+        has_uvs: uvs.is_some(),
     });
     Ok(true)
 }
@@ -100,31 +102,23 @@ pub(super) fn append(
 fn append_positions(
     draft: &mut Draft,
     accessor: &gltf::Accessor<'_>,
-    buffers: &[Cow<'_, [u8]>],
+    buffers: &Buffers<'_>,
     to_world: Mat4,
 ) -> Result<()> {
     let (first, moved) = (draft.positions.len(), to_world != Mat4::IDENTITY);
-    let fault = AtomicBool::new(false);
-    vectors::<3, Vec3>(accessor, buffers, &mut draft.positions, |position| {
-        let position = if moved { to_world.transform_point3(position) } else { position };
-        // A number that is none fails the comparison too.
-        if !position.abs().cmple(Vec3::splat(COORDINATE_LIMIT)).all() {
-            fault.store(true, Ordering::Relaxed);
-        }
-        position
-    })?;
-    let faults = draft.positions[first..].iter().enumerate().filter(|_| fault.load(Ordering::Relaxed));
-    for (at, &position) in faults {
-        check_position(position)
-            .map_err(|error| Error::new(error.kind(), format!("vertex {at}: {error}")))?;
+    let place = |position| if moved { to_world.transform_point3(position) } else { position };
+    let unsound = append_checked::<3, Vec3>(accessor, buffers, &mut draft.positions, place, is_within_limit)?;
+    match unsound {
+        Some(at) => check_position(draft.positions[first + at])
+            .map_err(|error| Error::new(error.kind(), format!("vertex {at}: {error}"))),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 fn append_normals(
     draft: &mut Draft,
     accessor: &gltf::Accessor<'_>,
-    buffers: &[Cow<'_, [u8]>],
+    buffers: &Buffers<'_>,
     to_world: Mat4,
 ) -> Result<()> {
     if to_world == Mat4::IDENTITY {
@@ -142,20 +136,37 @@ fn append_normals(
 }
 
 /// UVs with v turned up: in glTF it runs down.
-fn append_uvs(draft: &mut Draft, accessor: &gltf::Accessor<'_>, buffers: &[Cow<'_, [u8]>]) -> Result<()> {
-    let first = draft.uvs.len();
-    let fault = AtomicBool::new(false);
-    vectors::<2, Vec2>(accessor, buffers, &mut draft.uvs, |uv| {
-        if !uv.is_finite() {
-            fault.store(true, Ordering::Relaxed);
-        }
-        Vec2::new(uv.x, 1.0 - uv.y)
-    })?;
-    let found = || draft.uvs[first..].iter().position(|uv| !uv.is_finite());
-    match fault.load(Ordering::Relaxed).then(found).flatten() {
+fn append_uvs(draft: &mut Draft, accessor: &gltf::Accessor<'_>, buffers: &Buffers<'_>) -> Result<()> {
+    let turn_up = |uv: Vec2| Vec2::new(uv.x, 1.0 - uv.y);
+    match append_checked::<2, Vec2>(accessor, buffers, &mut draft.uvs, turn_up, |uv| uv.is_finite())? {
         Some(at) => Err(Error::invalid(format!("vertex {at}: not a finite number"))),
         None => Ok(()),
     }
+}
+
+/// Appends vectors, each after `convert`; gives the first of them that is not sound, counted from where they begin.
+fn append_checked<const N: usize, V>(
+    accessor: &gltf::Accessor<'_>,
+    buffers: &Buffers<'_>,
+    out: &mut Vec<V>,
+    convert: impl Fn(V) -> V + Sync,
+    is_sound: impl Fn(V) -> bool + Sync,
+) -> Result<Option<usize>>
+where
+    V: Pod + From<[f32; N]> + Send + Sync,
+{
+    let first = out.len();
+    // Threads append in no order: they tell only that something is wrong, and where is looked for once they are done.
+    let fault = AtomicBool::new(false);
+    vectors::<N, V>(accessor, buffers, out, |vector| {
+        let vector = convert(vector);
+        if !is_sound(vector) {
+            fault.store(true, Ordering::Relaxed);
+        }
+        vector
+    })?;
+    let unsound = || out[first..].iter().position(|&vector| !is_sound(vector));
+    Ok(fault.into_inner().then(unsound).flatten())
 }
 
 /// Appends triangles over the given vertices, turned where they are mirrored.

@@ -218,7 +218,7 @@ fn faults_name_mesh_and_primitive() {
     in_primitive(|j| j["accessors"][0]["byteOffset"] = json!(u64::MAX), "reach past");
     in_primitive(|j| j["bufferViews"][1]["byteOffset"] = json!(u64::MAX), "normals: 4 items reach past");
     in_primitive(|j| j["bufferViews"][0]["byteLength"] = json!(47), "reach past");
-    in_primitive(|j| j["accessors"][1]["count"] = json!(3), "in another number");
+    in_primitive(|j| j["accessors"][1]["count"] = json!(3), "3 normals for 4 positions");
     in_primitive(|j| j["accessors"][2]["type"] = json!("VEC3"), "UVs: Vec3 where Vec2");
     in_primitive(|j| j["accessors"][3]["bufferView"] = json!(2), "index 16256, of 4");
     in_primitive(|j| j["nodes"][0]["translation"] = json!([1e20, 0, 0]), "vertex 0: a coordinate beyond");
@@ -298,6 +298,59 @@ fn no_mutation_panics() {
     });
 }
 
+/// The square with its buffer in a file beside it.
+fn square_beside() -> (Value, Vec<u8>) {
+    let (mut json, bin) = square();
+    json["buffers"][0]["uri"] = json!("two%20words.bin");
+    (json, bin)
+}
+
+#[test]
+fn no_mutation_of_a_file_or_of_the_buffer_beside_it_panics() {
+    let (json, bin) = square_beside();
+    let text = json.to_string().into_bytes();
+    let look = |text: &[u8], beside: &[u8]| {
+        // A mutation may change the name, too.
+        if let Ok(mesh) = parse(text, &|_| Ok(beside.to_vec())) {
+            mutations::assert_checked(&mesh);
+            let _ = crate::mesh::Garment::new(mesh);
+            return 1;
+        }
+        0
+    };
+    let mut read = [0, 0];
+    mutations::each(&text, 4_000, |text| read[0] += look(text, &bin));
+    mutations::each(&bin, 4_000, |bin| read[1] += look(&text, bin));
+    assert!(read[0] > 20 && read[1] > 100, "the way to a mesh was hardly taken: {read:?}");
+}
+
+#[test]
+fn a_file_that_many_buffers_name_is_read_once_and_justifies_no_more() {
+    let (mut json, bin) = square_beside();
+    let names = ["two%20words.bin", "two words.bin"];
+    let buffer = |k: usize| json!({"byteLength": 140, "uri": names[k % 2]});
+    json["buffers"] = (0..1000).map(buffer).collect();
+    let asked = std::cell::Cell::new(0);
+    let beside = |name: &str| {
+        asked.set(asked.get() + 1);
+        assert_eq!(name, "two words.bin");
+        Ok(bin.clone())
+    };
+    let text = json.to_string().into_bytes();
+    assert_eq!(parse(&text, &beside).unwrap().triangles.len(), 2);
+    assert_eq!(asked.get(), 1);
+    // Zeros for which nothing stands in the file: as many as all buffers have bytes, were they not the same ones.
+    json["accessors"][1] = json!({"componentType": 5126, "count": 100_000, "type": "VEC3", "sparse": {
+        "count": 1, "indices": {"bufferView": 3, "componentType": 5123}, "values": {"bufferView": 0}}});
+    let error = parse(json.to_string().as_bytes(), &beside).unwrap_err();
+    assert_eq!(error.kind(), crate::ErrorKind::TooLarge, "{error}");
+    let (_, bin) = square();
+    for buffer in json["buffers"].as_array_mut().unwrap() {
+        buffer.as_object_mut().unwrap().remove("uri");
+    }
+    assert_eq!(read(&json, &bin).unwrap_err().kind(), crate::ErrorKind::TooLarge);
+}
+
 /// The square twice: a left and a right sleeve, sewn together.
 fn sleeves() -> (Value, Vec<u8>) {
     let (mut json, bin) = square();
@@ -340,7 +393,7 @@ fn bad_extras_are_a_notice_and_no_more() {
     notice(0, "uv_unit_m", json!(-1), "Left: the unit -1");
     notice(0, "uv_unit_m", json!(1e300), "Left: the unit inf");
     notice(0, "mirror", json!("Middle"), "Left: the mirror partner 'Middle' is not there");
-    notice(0, "mirror", json!("Left"), "Left: the mirror partner 'Left' is not there");
+    notice(0, "mirror", json!("Left"), "Left: it is named as its own mirror partner");
     notice(0, "seams", json!([{"edge": [[0, 0]]}]), "invalid length");
     notice(0, "seams", json!(vec![vec![0; 100]; 100]), "mesh 0, primitive 0");
     let seam = |partner: &str, u: f64| json!({"edge": [[u, 0], [1, 1]], "partner": partner, "partner_edge": [[0, 0], [0, 1]]});

@@ -77,3 +77,16 @@ fn parts_without_triangles_are_no_partners() {
     assert_eq!(garment.panels[0].pattern, PatternPiece::default());
     assert!(garment.notices[0].contains("'gone' is not there"), "{:?}", garment.notices);
 }
+
+#[test]
+fn parts_of_several_islands_mirror_nothing_and_that_is_told() {
+    let mirror_of = |name: &str| PatternPiece { mirror: Some(name.into()), ..PatternPiece::default() };
+    let places = [(0.0, 0), (10.0, 0), (20.0, 1)];
+    for (pair, single) in [("single", ""), ("", "pair")] {
+        let pattern = |of: &str| if of.is_empty() { PatternPiece::default() } else { mirror_of(of) };
+        let parts = vec![part("pair", pattern(pair)), part("single", pattern(single))];
+        let garment = Garment::new(squares(&places, parts)).unwrap();
+        assert!(garment.panels.iter().all(|panel| panel.pattern.mirror.is_none()));
+        assert!(garment.notices[0].contains("in several islands of the UV map"), "{:?}", garment.notices);
+    }
+}

@@ -93,7 +93,10 @@ fn open(adapter: wgpu::Adapter) -> Result<Gpu> {
 }
 
 /// What `make` gives, unless the device finds fault with it.
-pub(super) fn checked<T>(device: &wgpu::Device, what: &str, make: impl FnOnce() -> T) -> Result<T> {
+///
+/// # Errors
+/// [`crate::ErrorKind::Device`]: too little memory for `what`, or a fault in its making.
+pub fn checked<T>(device: &wgpu::Device, what: &str, make: impl FnOnce() -> T) -> Result<T> {
     let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
     let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let made = make();

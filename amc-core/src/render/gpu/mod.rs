@@ -17,7 +17,7 @@ mod pipeline;
 mod scene;
 mod uniforms;
 
-pub use device::{Backend, Gpu};
+pub use device::{Backend, Gpu, checked};
 pub use fabric::FabricTexture;
 pub use mode::{LooksUp, MODES, ShadingMode};
 pub use offscreen::{Offscreen, render_picture};

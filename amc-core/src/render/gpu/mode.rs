@@ -29,7 +29,10 @@ const NORMALS: ShadingMode = ShadingMode { shader: "mode_normals", looks_up: Loo
 const TANGENTS: ShadingMode = ShadingMode { shader: "mode_tangents", looks_up: LooksUp::Nothing };
 const UV: ShadingMode = ShadingMode { shader: "mode_uv", looks_up: LooksUp::Nothing };
 
-/// All of them.
+/// Not a shading of cloth: panels as marks ([`super::Renderer::mark_data`]).
+pub(super) const MARK: ShadingMode = ShadingMode { shader: "mark", looks_up: LooksUp::Nothing };
+
+/// All shadings of cloth.
 pub static MODES: &[ShadingMode] = &[AMC, BALL, PLAIN, NORMALS, TANGENTS, UV];
 
 impl ShadingMode {

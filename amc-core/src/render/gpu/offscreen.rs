@@ -74,7 +74,12 @@ impl Offscreen {
         let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let TargetFormat { color, depth, samples } = target;
         let none = wgpu::TextureUsages::empty();
-        let resolved = texture("picture", color, 1, wgpu::TextureUsages::COPY_SRC);
+        let resolved = texture(
+            "picture",
+            color,
+            1,
+            wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::TEXTURE_BINDING,
+        );
         Self {
             width,
             height,
@@ -84,6 +89,11 @@ impl Offscreen {
             resolved_view: view(&resolved),
             resolved,
         }
+    }
+
+    /// The picture that was drawn last, one sample per pixel, for shaders to read.
+    pub fn color(&self) -> &wgpu::TextureView {
+        &self.resolved_view
     }
 
     /// The format of its attachments.

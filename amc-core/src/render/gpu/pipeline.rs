@@ -37,12 +37,14 @@ pub(super) struct PipelineKey {
     pub(super) cyclic: Cyclic,
     pub(super) perspective: Perspective,
     pub(super) azimuth: Azimuth,
+    /// What mode `MARK` writes.
+    pub(super) mark: u8,
     pub(super) target: TargetFormat,
 }
 
 impl PipelineKey {
     /// The `override` constants of the shaders. They are fixed here and no branch on them is left in the pipeline.
-    fn constants(&self) -> [(&'static str, f64); 4] {
+    fn constants(&self) -> [(&'static str, f64); 5] {
         let cyclic = match self.cyclic {
             Cyclic::Naive => 0.0,
             Cyclic::Cyclic => 1.0,
@@ -62,6 +64,7 @@ impl PipelineKey {
             ("cyclic_mode", cyclic),
             ("perspective_mode", perspective),
             ("azimuth_definition", azimuth),
+            ("mark", f64::from(self.mark)),
             ("encode_output", if self.target.is_encoded_by_shader() { 1.0 } else { 0.0 }),
         ]
     }

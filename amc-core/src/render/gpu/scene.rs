@@ -7,7 +7,7 @@ use super::ball::BallTexture;
 use super::bindings::{Bindings, bind_group};
 use super::fabric::FabricTexture;
 use super::mesh::MeshBuffers;
-use super::mode::{LooksUp, ShadingMode};
+use super::mode::{LooksUp, MARK, ShadingMode};
 use super::pipeline::{PipelineKey, Pipelines, TargetFormat};
 use super::uniforms::{ViewUniforms, buffer};
 use crate::amc::Amc;
@@ -40,6 +40,9 @@ pub struct Eye {
 #[derive(Debug)]
 pub struct Scene {
     mesh: MeshBuffers,
+    /// As the drawing has them.
+    panels: Vec<Draw>,
+    /// Those of the panels that are shown, merged.
     draws: Vec<Draw>,
     fabrics: Vec<SceneFabric>,
 }
@@ -98,7 +101,8 @@ impl Renderer {
         let fabrics = drawing.fabrics.iter().map(|amc| self.fabric(amc)).collect::<Result<_>>()?;
         Ok(Scene {
             mesh: MeshBuffers::new(&self.device, &self.queue, drawing)?,
-            draws: merged(&drawing.draws),
+            panels: drawing.draws.clone(),
+            draws: merged(drawing.draws.iter()),
             fabrics,
         })
     }
@@ -140,8 +144,38 @@ impl Renderer {
             draws.push(ReadyDraw {
                 pipeline: self.pipelines.get(&self.device, &self.bindings, key)?,
                 looked_up: self.looked_up(mode, shading, fabric)?,
-                corners: draw.triangles.start * 3..draw.triangles.end * 3,
+                corners: corners(draw),
             });
+        }
+        Ok(SceneDrawData { mesh: scene.mesh.clone(), eye: eye.bind_group.clone(), draws })
+    }
+
+    /// The panels (draws of the drawing) that `mark_of` gives a mark or a 0, as seen from where `eye` was set by the last
+    /// [`Renderer::draw_data`]: into the red of an `Rgba8Unorm` target go mark/255, for an overlay or to tell panels apart.
+    /// Those it gives none are left out.
+    ///
+    /// # Errors
+    /// A faulty shader, or the device refuses.
+    pub fn mark_data(
+        &mut self,
+        scene: &Scene,
+        eye: &Eye,
+        mark_of: impl Fn(usize) -> Option<u8>,
+        target: TargetFormat,
+    ) -> Result<SceneDrawData> {
+        let mut draws = Vec::new();
+        for (panel, draw) in scene.panels.iter().enumerate().filter(|(_, draw)| !draw.triangles.is_empty()) {
+            let Some(mark) = mark_of(panel) else { continue };
+            let key = PipelineKey {
+                mode: MARK,
+                cyclic: Cyclic::default(),
+                perspective: Perspective::Off,
+                azimuth: Azimuth::default(),
+                mark,
+                target,
+            };
+            let pipeline = self.pipelines.get(&self.device, &self.bindings, key)?;
+            draws.push(ReadyDraw { pipeline, looked_up: None, corners: corners(draw) });
         }
         Ok(SceneDrawData { mesh: scene.mesh.clone(), eye: eye.bind_group.clone(), draws })
     }
@@ -188,6 +222,13 @@ impl Renderer {
 }
 
 impl Scene {
+    /// From now on only the panels (draws of the drawing) are drawn that `is_shown` says yes to.
+    pub fn show_only(&mut self, is_shown: impl Fn(usize) -> bool) {
+        self.draws = merged(
+            self.panels.iter().enumerate().filter(|(panel, _)| is_shown(*panel)).map(|(_, draw)| draw),
+        );
+    }
+
     /// The texture of fabric `index` of the drawing, to replace slices of it. The isotropic mean, once shown, stays
     /// that of the AMC the scene was prepared with.
     pub fn fabric(&self, index: usize) -> Option<&FabricTexture> {
@@ -231,14 +272,20 @@ fn key(
         cyclic: if table { shading.cyclic } else { Cyclic::default() },
         perspective: if turned { shading.perspective } else { Perspective::Off },
         azimuth: if table { azimuth } else { Azimuth::default() },
+        mark: 0,
         target,
     }
 }
 
+/// The indices of a draw's corners.
+fn corners(draw: &Draw) -> Range<u32> {
+    draw.triangles.start * 3..draw.triangles.end * 3
+}
+
 /// Draws without the empty ones, neighbours of the same cloth as one.
-fn merged(draws: &[Draw]) -> Vec<Draw> {
+fn merged<'a>(draws: impl Iterator<Item = &'a Draw>) -> Vec<Draw> {
     let mut merged: Vec<Draw> = Vec::new();
-    for draw in draws.iter().filter(|draw| !draw.triangles.is_empty()) {
+    for draw in draws.filter(|draw| !draw.triangles.is_empty()) {
         match merged.last_mut() {
             Some(last) if last.cloth == draw.cloth && last.triangles.end == draw.triangles.start => {
                 last.triangles.end = draw.triangles.end;

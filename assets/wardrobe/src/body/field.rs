@@ -36,7 +36,8 @@ impl Field {
         Self::Ball { centre, radius }
     }
 
-    /// Samples a function whose zero is the surface, and divides it by its gradient near there: that is the distance to first order.
+    /// Samples a function whose zero is the surface, and divides it by its gradient near there: that is the distance
+    /// to first order.
     pub(super) fn sampled(space: &Space, function: impl Fn(DVec3) -> f64 + Sync) -> Self {
         let counts = ((space.high - space.low) / SPACING).ceil().as_ivec3() + IVec3::ONE;
         let row = counts.x.unsigned_abs() as usize;

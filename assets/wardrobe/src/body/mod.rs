@@ -16,11 +16,22 @@ use field::Field;
 pub enum Figure {
     /// A standing adult, 1.75 m, arms held away from the sides. Feet at y = 0, front towards +z, the wearer's left at +x.
     ///
-    /// Limbs to wrap pieces round: `torso` (start: the neck's root), `neck` (start: the chin), `left arm`, `right arm` (start: the shoulder joint), `left leg`,
-    /// `right leg` (start: the hip joint).
+    /// Limbs to wrap pieces round: `torso` (start: the neck's root), `neck` (start: the chin), `left arm`, `right arm`
+    /// (start: the shoulder joint), `left leg`, `right leg` (start: the hip joint).
     Standing,
     /// A ball of 0.3 m radius, centre at y = 1 m. No limbs.
     Ball,
+}
+
+impl Figure {
+    /// What pieces can be wrapped round.
+    #[must_use]
+    pub fn limbs(self) -> Vec<Limb> {
+        match self {
+            Self::Standing => standing::limbs(),
+            Self::Ball => Vec::new(),
+        }
+    }
 }
 
 /// The centre of [`Figure::Ball`], metres.
@@ -65,12 +76,11 @@ impl Body {
     /// The body of a figure. The standing adult is sampled once on a grid of 1 cm, about half a second's work.
     #[must_use]
     pub fn new(figure: Figure) -> Self {
-        match figure {
-            Figure::Standing => {
-                Self { field: Field::sampled(&standing::SPACE, standing::distance), limbs: standing::limbs() }
-            }
-            Figure::Ball => Self { field: Field::ball(BALL_CENTRE, BALL_RADIUS), limbs: Vec::new() },
-        }
+        let field = match figure {
+            Figure::Standing => Field::sampled(&standing::SPACE, standing::distance),
+            Figure::Ball => Field::ball(BALL_CENTRE, BALL_RADIUS),
+        };
+        Self { field, limbs: figure.limbs() }
     }
 
     /// Distance from the surface, metres, negative inside; close to the true one near the surface, of the right sign

@@ -22,7 +22,7 @@ pub(super) struct Arguments {
     #[arg(short, long)]
     output: PathBuf,
     /// Columns of one view on the contact sheet; its rows are a quarter more.
-    #[arg(long, default_value_t = 200)]
+    #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u32).range(16..=1024))]
     width: u32,
 }
 

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use serde_json::{Value, json};
 
 use super::*;
-use crate::pattern::tests::{SHIPPED, shipped};
+use crate::collection::COLLECTION;
+use crate::pattern::tests::shipped;
 
 /// The corners of all triangles of a piece, degrees.
 fn angles(piece: &CutPiece) -> Vec<f64> {
@@ -65,19 +66,24 @@ fn rectangles(pieces: &[(&str, f64, f64, Value)], seams: Value) -> Pattern {
 
 #[test]
 fn triangles_fill_every_piece_and_none_is_a_sliver() {
-    for name in SHIPPED {
-        let pattern = shipped(name);
+    for entry in &COLLECTION {
+        let (name, pattern) = (entry.name, entry.pattern().unwrap());
         let whole = pattern.unfold().unwrap();
         for edge_length in [0.025, 0.012] {
             let garment = cut(&pattern, edge_length).unwrap();
             for (piece, drawn) in garment.pieces.iter().zip(&whole.pieces) {
-                // Chords cut off a little of curved edges.
-                assert!((area(piece) / drawn.area() - 1.0).abs() < 0.02, "{name}: {}", piece.name);
+                // Chords cut off a little of curved edges: most of the stand's ends, which are round and hardly wider than an edge is long.
+                let round = name == "shirt" && piece.name == "stand" && edge_length > 0.02;
+                let cut_off = (area(piece) / drawn.area() - 1.0).abs();
+                assert!(cut_off < if round { 0.02 } else { 0.01 }, "{name}: {}: {cut_off}", piece.name);
                 let mut angles = angles(piece);
                 angles.sort_by(f64::total_cmp);
                 assert!(angles[0] > 15.0, "{name}: {}: {}", piece.name, angles[0]);
                 let twentieth = angles[angles.len() / 20];
-                assert!(edge_length > 0.02 || twentieth > 30.0, "{name}: {}: {twentieth}", piece.name);
+                // The strip between the collar's neck and its roll line is 7 mm wide: its triangles are lower than long.
+                let strip = name == "shirt" && piece.name == "collar";
+                let least = if strip { 30.0 } else { 36.0 };
+                assert!(edge_length > 0.02 || twentieth > least, "{name}: {}: {twentieth}", piece.name);
             }
         }
     }

@@ -113,6 +113,9 @@ const CELL_PER_EDGE: f64 = 1.2;
 const LEAST_APART: f64 = 0.2;
 /// Layers that are too near are pushed apart no faster, metres per second.
 const MOST_PUSH: f64 = 0.3;
+/// The share of what sewn layers are too near by that they are pushed apart in a step. All at once, layers that have no room would throw
+/// each other to and fro for ever.
+const PUSHED_SHARE: f64 = 0.1;
 
 impl Layers {
     /// `sewn`: per particle, what it is once all seams are sewn: seams that are about to close do not repel each other.
@@ -267,36 +270,44 @@ impl Layers {
         !self.near.tangles.is_empty()
     }
 
+    /// Whether seams are still to close.
+    pub(super) fn closing(&self) -> bool {
+        self.sewing
+    }
+
     /// Draws apart what has gone through itself; `step` in seconds.
     pub(super) fn untangle(&self, points: &Points, inverse_mass: &[f64], step: f64) {
         self.near.tangles.iter().for_each(|tangle| tangle.pull(points, inverse_mass, step));
     }
 
-    /// Keeps every pair apart. `before`: places at the step's start; `step`: seconds.
+    /// Keeps every pair apart, and tells which touched. `before`: places at the step's start; `step`: seconds.
     pub(super) fn solve(
         &self,
         points: &Points,
-        before: &mut [DVec3],
+        before: &[DVec3],
         inverse_mass: &[f64],
         friction: f64,
         step: f64,
-    ) {
+    ) -> Vec<Touch> {
         let touching = |pair: &&Pair| touch(pair, points).is_some();
         let active: Vec<&Pair> = if self.near.pairs.len() < 4096 {
             self.near.pairs.iter().filter(touching).collect()
         } else {
             self.near.pairs.par_iter().with_min_len(1024).filter(touching).collect()
         };
-        for pair in active {
-            if let Some(touch) = touch(pair, points) {
-                touch.resolve(points, before, inverse_mass, friction, MOST_PUSH * step);
-            }
-        }
+        let share = if self.sewing { 1.0 } else { PUSHED_SHARE };
+        let resolve = |pair: &Pair| {
+            let touch = touch(pair, points)?;
+            touch.resolve(points, before, inverse_mass, friction, (share, MOST_PUSH * step));
+            Some(touch)
+        };
+        active.into_iter().filter_map(resolve).collect()
     }
 }
 
 /// Four particles that are too near: `sum weights x` is too short along `normal` by `depth`.
-struct Touch {
+#[derive(Debug)]
+pub(super) struct Touch {
     particles: [u32; 4],
     weights: [f64; 4],
     normal: DVec3,
@@ -304,35 +315,53 @@ struct Touch {
 }
 
 impl Touch {
-    /// Takes back what brought the four nearer in this step, pushes them apart by `most_push` at most, metres, and takes back
-    /// sliding up to the friction's share (Mueller and others 2007; Macklin and others 2014, section 6.1).
+    /// Takes back what brought the four nearer in this step, pushes them apart by a `share` of what is left, `most_push` at most,
+    /// metres, and takes back sliding up to the friction's share (Mueller and others 2007; Macklin and others 2014, section 6.1).
     fn resolve(
         &self,
         points: &Points,
-        before: &mut [DVec3],
+        before: &[DVec3],
         inverse_mass: &[f64],
         friction: f64,
-        most_push: f64,
+        (share, most_push): (f64, f64),
     ) {
         let w = self.particles.map(|particle| inverse_mass[particle as usize]);
-        let weight: f64 = w.iter().zip(self.weights).map(|(w, a)| w * a * a).sum();
+        let weight = self.weight(&w);
         if weight <= 0.0 {
             return;
         }
         let moved = self.moved(points, before);
         let nearer = (-moved.dot(self.normal)).clamp(0.0, self.depth);
-        let push = (self.depth - nearer).min(most_push);
-        self.shift(points, &w, self.normal * ((nearer + push) / weight));
-        // Being pushed apart is no motion to go on with.
-        for i in 0..4 {
-            before[self.particles[i] as usize] += self.normal * (push / weight * w[i] * self.weights[i]);
-        }
+        let push = nearer + (share * (self.depth - nearer)).min(most_push);
+        self.shift(points, &w, self.normal * (push / weight));
         let slid = moved.reject_from_normalized(self.normal);
         let length = slid.length();
         if length > 0.0 {
-            let back = (friction * (nearer + push) / length).min(1.0);
+            let back = (friction * push / length).min(1.0);
             self.shift(points, &w, slid * (-back / weight));
         }
+    }
+
+    /// What touches moves neither nearer nor, by having been pushed, apart: takes that from the velocities (Mueller and others 2020,
+    /// "Detailed rigid body simulation with extended position based dynamics", section 3.6, without bouncing). Cloth that is
+    /// `tangled` while its seams close has to get back through itself: there only what moves apart is held.
+    pub(super) fn calm(&self, velocities: &mut [DVec3], inverse_mass: &[f64], tangled: bool) {
+        let w = self.particles.map(|particle| inverse_mass[particle as usize]);
+        let weight = self.weight(&w);
+        let apart: DVec3 =
+            self.particles.iter().zip(self.weights).map(|(p, a)| velocities[*p as usize] * a).sum();
+        let speed = apart.dot(self.normal);
+        if weight <= 0.0 || (tangled && speed < 0.0) {
+            return;
+        }
+        for ((particle, a), w) in self.particles.iter().zip(self.weights).zip(w) {
+            velocities[*particle as usize] -= self.normal * (speed / weight * w * a);
+        }
+    }
+
+    /// What the four weigh against being moved apart, 1/kilograms.
+    fn weight(&self, w: &[f64; 4]) -> f64 {
+        w.iter().zip(self.weights).map(|(w, a)| w * a * a).sum()
     }
 
     /// How far the four moved against each other in this step.

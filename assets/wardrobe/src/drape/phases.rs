@@ -22,12 +22,10 @@ pub struct Options {
     pub step: f64,
     /// How long seams take to close, seconds of the cloth's time.
     pub sewing: f64,
-    /// How long the coarsest cloth falls, at most, seconds.
+    /// How long the coarsest cloth may take to fall and come to rest, seconds.
     pub falling: f64,
-    /// How long it may take to come to rest after that, seconds.
-    pub quieting: f64,
-    /// How long a finer cloth falls from where the coarser one came to rest, and then at most quietens, seconds per metre of its edges.
-    pub relaxing: [f64; 2],
+    /// How long a finer cloth may take to come to rest from where the coarser one did, seconds per metre of its edges.
+    pub relaxing: f64,
     /// At rest no particle is faster, metres per second.
     pub rest_speed: f64,
     /// Metres per second squared.
@@ -41,9 +39,8 @@ impl Default for Options {
             layer: 0.0025,
             step: 1.0 / 30.0,
             sewing: 0.6,
-            falling: 1.6,
-            quieting: 1.2,
-            relaxing: [40.0, 60.0],
+            falling: 6.0,
+            relaxing: 500.0,
             rest_speed: 0.005,
             gravity: 9.81,
         }
@@ -74,11 +71,12 @@ const LEAST_LAYER: f64 = 0.2;
 const MOST_LAYER: f64 = 0.5;
 /// Between two looks at energies and speeds, seconds.
 const FRAME: f64 = 1.0 / 60.0;
-/// Drag of the air while sewing, falling, relaxing on a finer level and quieting, 1/seconds.
-const SEWING_DRAG: f64 = 10.0;
-const FALLING_DRAG: f64 = 4.0;
-const RELAXING_DRAG: f64 = 6.0;
-const QUIETING_DRAG: f64 = 25.0;
+/// Cloth is still once it has been so for as many looks.
+const STILL_FRAMES: usize = 6;
+/// Drag of the air while seams settle, and then, 1/seconds. The folds of a skirt sway with a period of about 2.5 s: a drag of twice its
+/// angular frequency ends that soonest.
+const SETTLING_DRAG: f64 = 10.0;
+const DRAG: f64 = 5.0;
 /// How much stretchier the cloth is while it is sewn.
 const SEWING_SOFTNESS: f64 = 20.0;
 /// Seconds in which gravity comes and softness goes after sewing.
@@ -124,6 +122,19 @@ pub(super) fn layer(model: &Model, options: &Options) -> f64 {
     options.layer.max(LEAST_LAYER * model.edge_length).min(MOST_LAYER * model.edge_length)
 }
 
+/// A garment without motion. `sewn`: per particle, what it is once all seams are sewn.
+pub(super) fn solver<'a>(
+    model: &'a Model,
+    sewn: Vec<u32>,
+    start: &[Vec<DVec3>],
+    body: &'a Body,
+    options: &Options,
+) -> Solver<'a> {
+    let layers = Layers::new(model, sewn, layer(model, options));
+    let step = options.step * model.edge_length;
+    Solver::new(model, body, &model.gather(start), options.margin, layers, step)
+}
+
 /// A garment whose seams are welded, without motion.
 fn sewn<'a>(
     model: &'a Model,
@@ -132,13 +143,10 @@ fn sewn<'a>(
     body: &'a Body,
     options: &Options,
 ) -> Solver<'a> {
-    let thickness = layer(model, options);
-    let layers = Layers::new(model, (0..model.mass.len() as u32).collect(), thickness);
-    let step = options.step * model.edge_length;
-    let mut solver = Solver::new(model, body, &model.gather(start), options.margin, layers, step);
+    let mut solver = solver(model, (0..model.mass.len() as u32).collect(), start, body, options);
     let buttons =
         pairs(garment, JoinKind::Layered).map(|(one, other)| [model.particle(one), model.particle(other)]);
-    solver.threads = buttons.map(|ends| Thread { ends, most: thickness }).collect();
+    solver.threads = buttons.map(|ends| Thread { ends, most: layer(model, options) }).collect();
     solver
 }
 
@@ -154,9 +162,8 @@ pub(super) fn linger(
     let model = Model::new(garment, &sewn_pairs(garment));
     let mut solver = sewn(&model, garment, &draped.positions, body, options);
     let mut rest = Rest { energies: vec![solver.energy(options.gravity)], ..Rest::default() };
-    let never_still = Options { rest_speed: -1.0, ..options.clone() };
-    let quiet = |_| Conditions { gravity: options.gravity, drag: QUIETING_DRAG, softness: 1.0 };
-    run(&mut solver, seconds, &never_still, &mut rest, quiet, ("lying", progress))?;
+    let lying = Phase { stage: "lying", seconds, until_still: false };
+    lying.run(&mut solver, options, &mut rest, |_| conditions(options), progress)?;
     Ok(rest)
 }
 
@@ -172,28 +179,29 @@ fn settle_and_drape(
     let model = Model::new(garment, &sewn_pairs(garment));
     let mut solver = sewn(&model, garment, start, body, options);
     let mut rest = Rest::default();
-    let gravity = options.gravity;
     let coarsest = softness > 1.0;
     if coarsest {
+        let settling = Phase { stage: "settling", seconds: SETTLING, until_still: false };
         let ramp = |share: f64| Conditions {
-            gravity: gravity * share,
-            drag: SEWING_DRAG,
+            gravity: options.gravity * share,
+            drag: SETTLING_DRAG,
             softness: softness.powf(1.0 - share),
         };
-        run(&mut solver, SETTLING, options, &mut rest, ramp, ("settling", progress))?;
+        settling.run(&mut solver, options, &mut rest, ramp, progress)?;
     }
-    let [falling, quieting] = if coarsest {
-        [options.falling, options.quieting]
+    let (stage, seconds) = if coarsest {
+        ("falling", options.falling)
     } else {
-        options.relaxing.map(|time| time * model.edge_length)
+        ("coming to rest, finer", options.relaxing * model.edge_length)
     };
-    let almost_still = Options { rest_speed: 4.0 * options.rest_speed, ..options.clone() };
-    let drag = if coarsest { FALLING_DRAG } else { RELAXING_DRAG };
-    let fall = |_| Conditions { gravity, drag, softness: 1.0 };
-    run(&mut solver, falling, &almost_still, &mut rest, fall, ("falling", progress))?;
-    let quiet = |_| Conditions { gravity, drag: QUIETING_DRAG, softness: 1.0 };
-    run(&mut solver, quieting, options, &mut rest, quiet, ("coming to rest", progress))?;
+    let falling = Phase { stage, seconds, until_still: true };
+    falling.run(&mut solver, options, &mut rest, |_| conditions(options), progress)?;
     Ok((Draped { positions: model.scatter(&solver.points.to_vec()) }, rest))
+}
+
+/// How the world is for a garment that is sewn.
+fn conditions(options: &Options) -> Conditions {
+    Conditions { gravity: options.gravity, drag: DRAG, softness: 1.0 }
 }
 
 pub(super) fn check(solver: &Solver<'_>) -> Result<()> {
@@ -201,31 +209,45 @@ pub(super) fn check(solver: &Solver<'_>) -> Result<()> {
     if solver.blown_up { Err(Error::invalid(what)) } else { Ok(()) }
 }
 
-/// Runs a phase for `seconds`, or until the cloth is still.
-fn run(
-    solver: &mut Solver<'_>,
+/// A stretch of time under conditions of its own.
+struct Phase {
+    stage: &'static str,
+    /// How long it lasts at most.
     seconds: f64,
-    options: &Options,
-    rest: &mut Rest,
-    conditions: impl Fn(f64) -> Conditions,
-    (stage, progress): (&str, &Progress<'_>),
-) -> Result<()> {
-    let substeps = (seconds / solver.step).ceil() as usize;
-    let frame = (FRAME / solver.step).ceil() as usize;
-    let mut before = solver.points.to_vec();
-    for substep in 0..substeps {
-        solver.advance(conditions((substep + 1) as f64 / substeps as f64));
-        rest.substeps += 1;
-        if (substep + 1) % frame == 0 {
-            progress.step(stage, substep + 1, substeps)?;
+    /// Whether it ends early once the cloth has been still for [`STILL_FRAMES`].
+    until_still: bool,
+}
+
+impl Phase {
+    /// Runs it. `conditions` by the share of the time that has passed.
+    fn run(
+        &self,
+        solver: &mut Solver<'_>,
+        options: &Options,
+        rest: &mut Rest,
+        conditions: impl Fn(f64) -> Conditions,
+        progress: &Progress<'_>,
+    ) -> Result<()> {
+        let substeps = (self.seconds / solver.step).ceil() as usize;
+        let frame = (FRAME / solver.step).ceil() as usize;
+        let mut before = solver.points.to_vec();
+        let mut still_frames = 0;
+        for substep in 0..substeps {
+            solver.advance(conditions((substep + 1) as f64 / substeps as f64));
+            rest.substeps += 1;
+            if (substep + 1) % frame > 0 {
+                continue;
+            }
+            progress.step(self.stage, substep + 1, substeps)?;
             check(solver)?;
             rest.fastest = solver.farthest_from(&before) / (frame as f64 * solver.step);
             before = solver.points.to_vec();
             rest.energies.push(solver.energy(options.gravity));
-            if rest.fastest <= options.rest_speed && substep > 2 * frame {
+            still_frames = if rest.is_still(options) { still_frames + 1 } else { 0 };
+            if self.until_still && still_frames >= STILL_FRAMES {
                 break;
             }
         }
+        Ok(())
     }
-    Ok(())
 }

@@ -3,10 +3,9 @@
 use amc_core::{Error, Progress, Result};
 use glam::DVec3;
 
-use super::layers::Layers;
 use super::model::Model;
-use super::phases::{Options, check, layer, sewn_pairs};
-use super::solver::{Conditions, Solver, Thread};
+use super::phases::{Options, check, layer, sewn_pairs, solver};
+use super::solver::{Conditions, Thread};
 use crate::body::Body;
 use crate::cut::{At, CutGarment, Join, JoinKind};
 
@@ -32,13 +31,9 @@ pub(super) fn sew(
     model.friction = 0.0;
     let welded = Model::new(garment, &sewn_pairs(garment));
     let identity = welded.particle_of.iter().flatten().copied().collect();
-    let thickness = layer(&model, options);
-    let layers = Layers::new(&model, identity, thickness);
-    let places = model.gather(placed);
-    let step = options.step * model.edge_length;
-    let mut solver = Solver::new(&model, body, &places, options.margin, layers, step);
-    let closings = closings(garment, &model, &places, thickness);
-    let substeps = (options.sewing / step).ceil() as usize;
+    let mut solver = solver(&model, identity, placed, body, options);
+    let closings = closings(garment, &model, &solver.points.to_vec(), layer(&model, options));
+    let substeps = (options.sewing / solver.step).ceil() as usize;
     let rounds = if closings.iter().any(|closing| closing.late) { 2 } else { 1 };
     let conditions = Conditions { gravity: 0.0, drag: DRAG, softness };
     for substep in 0..rounds * substeps + substeps / 4 {

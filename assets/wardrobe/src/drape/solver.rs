@@ -143,8 +143,10 @@ impl<'a> Solver<'a> {
             thread.solve(points, inverse_mass);
         }
         self.layers.untangle(points, inverse_mass, step);
-        self.layers.solve(points, &mut self.before, inverse_mass, self.model.friction, step);
+        let touches = self.layers.solve(points, &self.before, inverse_mass, self.model.friction, step);
         self.rest_on_body();
+        let tangled = self.layers.closing() && self.layers.tangled();
+        touches.iter().for_each(|touch| touch.calm(&mut self.velocities, &self.model.inverse_mass, tangled));
     }
 
     /// Moves by the velocity of the last substep, after gravity and drag.

@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::SCALE;
 use super::drawing::{Anchor, Drawing};
+use super::layout::{Extent, extent};
 use crate::pattern::{Line, LineKind};
 
 /// The mean width of a letter to the height of the type.
@@ -63,6 +64,17 @@ impl Label {
         Self::new(flipped(at) * SCALE, flipped(reading), Anchor::Middle, type_height, text)
     }
 
+    /// Goes down until no other words are in its way.
+    pub(super) fn make_room(&mut self, others: &[Self]) {
+        let taken: Vec<Extent> = others.iter().map(|other| extent(&other.corners())).collect();
+        let meets = |own: &Extent| {
+            taken.iter().any(|other| other.low.cmplt(own.high).all() && own.low.cmplt(other.high).all())
+        };
+        while meets(&extent(&self.corners())) {
+            self.at.y += self.height;
+        }
+    }
+
     pub(super) fn draw(&self, drawing: &mut Drawing, origin: DVec2) {
         let degrees = self.reading.to_angle().to_degrees();
         drawing.text(origin + self.at, degrees, self.anchor, self.times, &self.text);
@@ -98,4 +110,23 @@ fn bulge(line: &Line, along: f64, reach: f64, outward: DVec2) -> f64 {
 pub(super) fn direction(line: &Line, along: f64) -> DVec2 {
     let reach = (0.02 * line.length()).max(1e-4);
     (line.at(along + reach) - line.at(along - reach)).normalize_or(DVec2::X)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_make_room_for_each_other() {
+        let at = |place: DVec2| Label::new(place, DVec2::X, Anchor::Start, (20.0, 1.0), "cuff button");
+        let others = [at(DVec2::ZERO), at(DVec2::new(30.0, 25.0))];
+        let mut label = at(DVec2::new(10.0, 4.0));
+        label.make_room(&others);
+        assert_eq!(label.at.x, 10.0);
+        let highest = label.corners().into_iter().map(|corner| corner.y).fold(f64::INFINITY, f64::min);
+        assert!((37.0..60.0).contains(&highest), "{highest}");
+        let alone = label.at;
+        label.make_room(&others);
+        assert_eq!(label.at, alone);
+    }
 }

@@ -21,8 +21,8 @@ const SCALE: f64 = 1000.0;
 /// All pieces of a pattern as an SVG picture, one unit to a millimetre.
 ///
 /// The pieces lie right side up with v upwards: outlines solid, folds dashed, lines inside thin, notches as ticks across
-/// the edge, the warp's direction as a double-headed arrow; along every edge the name of its seam, or of the edge itself where it is
-/// not sewn. A bar shows the scale.
+/// the edge, the warp's direction as a double-headed arrow; along every edge the name of its seam, or of the edge itself
+/// where it is not sewn. A bar shows the scale.
 ///
 /// # Errors
 /// What [`Pattern::unfold`] finds.

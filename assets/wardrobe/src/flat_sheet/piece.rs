@@ -159,17 +159,21 @@ impl<'a> Placed<'a> {
             let to = parts().map(|part| part.to).fold(f64::NEG_INFINITY, f64::max);
             if from <= to {
                 sewn = true;
-                self.labels.push(Label::beside(
-                    own,
-                    from.midpoint(to),
-                    to - from,
-                    self.type_size,
-                    &seam.name,
-                ));
+                self.label(line, from.midpoint(to), to - from, &seam.name);
             }
         }
         if !sewn {
-            self.labels.push(Label::beside(own, own.length() / 2.0, own.length(), self.type_size, &own.name));
+            self.label(line, own.length() / 2.0, own.length(), &own.name);
         }
+    }
+
+    /// Writes beside the part of a line that is `length` metres long about `along`.
+    fn label(&mut self, line: usize, along: f64, length: f64, text: &str) {
+        let line = &self.piece.lines[line];
+        let mut label = Label::beside(line, along, length, self.type_size, text);
+        if line.kind == LineKind::Points {
+            label.make_room(&self.labels);
+        }
+        self.labels.push(label);
     }
 }

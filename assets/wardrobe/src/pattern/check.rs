@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use amc_core::{Error, Result};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::crossing::{Stroke, area, crossing, inside};
 use super::{CLOSE, Cloth, Line, LineKind, Pattern, Placement, WholePiece};
@@ -219,9 +219,10 @@ fn inner_lines(piece: &WholePiece, polygon: &[DVec2]) -> Result<()> {
         if line.kind == LineKind::Points {
             continue;
         }
+        // Past the joints of all strokes before: only those of one line are neighbours.
         let start = strokes.len() + index;
         for (i, ends) in line.part(trim, line.length() - trim).windows(2).enumerate() {
-            let joint = start + MOST_POINTS + i;
+            let joint = start + i;
             strokes.push(Stroke { ends: [ends[0], ends[1]], line: index, joints: [joint, joint + 1] });
         }
     }
@@ -234,45 +235,49 @@ fn inner_lines(piece: &WholePiece, polygon: &[DVec2]) -> Result<()> {
     }
 }
 
-/// The limbs of a figure: see [`Figure`].
-fn limbs(figure: Figure) -> &'static [&'static str] {
-    match figure {
-        Figure::Standing => &["torso", "neck", "left arm", "right arm", "left leg", "right leg"],
-        Figure::Ball => &[],
-    }
-}
-
+/// Refuses a placement at which a piece would not be near the figure, or have no extent.
 fn placement(placement: &Placement, figure: Figure) -> Result<()> {
-    let (numbers, lengths): (Vec<f64>, Vec<f64>) = match placement {
+    match placement {
         Placement::Around { limb, point, along, angle_deg, radius, flare } => {
-            let limbs = limbs(figure);
-            if !limbs.contains(&limb.as_str()) {
-                return Err(Error::invalid(format!(
-                    "it is placed round '{limb}'; the figure has {}",
-                    if limbs.is_empty() { "no limbs".to_owned() } else { limbs.join(", ") }
-                )));
-            }
+            is_limb(limb, figure)?;
             if !(0.005..=EXTENT[1]).contains(radius) || !(-2.0..=2.0).contains(flare) {
                 return Err(Error::invalid(format!(
                     "its placement has the radius {radius} and the flare {flare}; they are 0.005 to 10 m and -2 to 2"
                 )));
             }
             if !(-720.0..=720.0).contains(angle_deg) {
-                return Err(Error::invalid(format!("its placement has an angle of {angle_deg} degrees")));
+                return Err(Error::invalid(format!(
+                    "its placement has an angle of {angle_deg} degrees; it is between -720 and 720"
+                )));
             }
-            (vec![point[0], point[1], *along], Vec::new())
+            near(&[point[0], point[1], *along])
         }
-        Placement::Hung(hang) => return hang.check(),
+        Placement::Hung(hang) => hang.check(),
         Placement::Flat { point, at, across, up } => {
-            let crossed = glam::DVec3::from(*across).cross(glam::DVec3::from(*up)).length();
-            (point.iter().chain(at).copied().collect(), vec![crossed])
+            let area = DVec3::from(*across).cross(DVec3::from(*up)).length();
+            if !(1e-3..1e3).contains(&area) {
+                let what = "its placement's 'across' and 'up' must be two different directions";
+                return Err(Error::invalid(what));
+            }
+            near(&[point[0], point[1], at[0], at[1], at[2]])
         }
-    };
-    if numbers.iter().any(|x| x.is_nan() || x.abs() > EXTENT[1]) {
-        return Err(Error::invalid("its placement is more than 10 m away, or not a number"));
     }
-    if lengths.iter().any(|length| !(1e-3..1e3).contains(length)) {
-        return Err(Error::invalid("its placement's 'across' and 'up' must be two different directions"));
+}
+
+fn is_limb(name: &str, figure: Figure) -> Result<()> {
+    let limbs = figure.limbs();
+    if limbs.iter().any(|limb| limb.name == name) {
+        return Ok(());
     }
-    Ok(())
+    let known: Vec<&str> = limbs.iter().map(|limb| limb.name).collect();
+    let known = if known.is_empty() { "no limbs".to_owned() } else { known.join(", ") };
+    Err(Error::invalid(format!("it is placed round '{name}'; the figure has {known}")))
+}
+
+/// Refuses coordinates, metres, that are not those of something near the figure.
+fn near(coordinates: &[f64]) -> Result<()> {
+    if coordinates.iter().all(|x| x.abs() <= EXTENT[1]) {
+        return Ok(());
+    }
+    Err(Error::invalid("its placement is more than 10 m away, or not a number"))
 }

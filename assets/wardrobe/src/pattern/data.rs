@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use amc_core::{Error, Result};
+use amc_core::{Error, Result, file};
 use serde::{Deserialize, Serialize};
 
 use super::{Cloth, Placement, Unfolded, unfold};
@@ -283,15 +283,10 @@ impl Pattern {
     /// # Errors
     /// As [`Self::from_json`], `Io` and `TooLarge`, with the file's name.
     pub fn read(path: &Path) -> Result<Self> {
-        let io = |error| Error::io("cannot read", error).in_file(path);
-        let length = std::fs::metadata(path).map_err(io)?.len();
-        if length > LONGEST {
-            return Err(
-                Error::too_large(format!("{length} bytes; a pattern has at most {LONGEST}")).in_file(path)
-            );
-        }
-        let text = std::fs::read_to_string(path).map_err(io)?;
-        Self::from_json(&text).map_err(|error| error.in_file(path))
+        let bytes = file::read(path, LONGEST)?;
+        let text = std::str::from_utf8(&bytes)
+            .map_err(|error| Error::malformed("not UTF-8 text").at_byte(error.valid_up_to() as u64));
+        text.and_then(Self::from_json).map_err(|error| error.in_file(path))
     }
 
     /// Writes every piece and every seam out whole, curves flattened, and checks all of it.

@@ -7,7 +7,7 @@ use super::{CLOSE, Edge, Fold, FoldPlace, Line, LineKind, Notch, Piece, WholeNot
 
 /// The edges of the outline, closed, or from fold line to fold line.
 pub(super) fn outline(piece: &Piece) -> Result<Vec<Line>> {
-    let mut at = path::sane(piece.start)?;
+    let mut at = path::checked(piece.start)?;
     if piece.mirrored {
         at = on_the_fold_line(at, "starts")?;
     }
@@ -87,12 +87,12 @@ pub(super) fn inner(piece: &Piece) -> Result<Vec<Line>> {
     }
     for (i, fold) in piece.folds.iter().enumerate() {
         if let FoldPlace::Across([from, to]) = fold.along {
-            let points = vec![path::sane(from)?, path::sane(to)?];
+            let points = vec![path::checked(from)?, path::checked(to)?];
             inner.push(Line::new(&fold_name(i), LineKind::Inner, points, &[]));
         }
     }
     for points in &piece.points {
-        let at = points.at.iter().map(|&point| path::sane(point)).collect::<Result<Vec<_>>>()?;
+        let at = points.at.iter().map(|&point| path::checked(point)).collect::<Result<Vec<_>>>()?;
         if at.is_empty() {
             return Err(Error::invalid(format!("'{}' has no points", points.name)));
         }

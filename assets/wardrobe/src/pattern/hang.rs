@@ -28,7 +28,7 @@ pub struct Station {
     /// Where in space, metres.
     pub at: [f64; 3],
     /// Where +v goes. Its length says how far a metre of the width goes: 1 smooth, less gathered. The right side faces
-    /// the way of growing u `x up`.
+    /// `along x up`, `along` being the line's direction of growing u.
     pub up: [f64; 3],
 }
 
@@ -73,7 +73,13 @@ impl Hang {
                 self.stations.len()
             )));
         }
-        if !(0.005..=1.0).contains(&self.pleat) || self.v.is_nan() || self.v.abs() > 10.0 {
+        if self.v.is_nan() || self.v.abs() > 10.0 {
+            return Err(Error::invalid(format!(
+                "its placement hangs it by v = {}; it is between -10 and 10 m",
+                self.v
+            )));
+        }
+        if !(0.005..=1.0).contains(&self.pleat) {
             return Err(Error::invalid(format!(
                 "its placement has pleats of {} m; they are 0.005 to 1 m",
                 self.pleat

@@ -1,10 +1,12 @@
 //! Patterns: a garment's flat pieces as data.
 //!
-//! A pattern file is JSON, one [`Pattern`]. Lengths are metres, angles degrees. A piece is drawn as it lies on the table with the
-//! right side of the cloth up: u to the right, v up, its outline counter-clockwise. What a file may hold is said by
-//! [`Pattern`], [`Piece`] and [`Seam`], field by field; [`Pattern::unfold`] checks it and writes every piece and seam out whole.
+//! A pattern file is JSON, one [`Pattern`]. Lengths are metres, angles degrees. A piece is drawn as it lies on the table
+//! with the right side of the cloth up: u to the right, v up, its outline counter-clockwise. What a file may hold is said
+//! by [`Pattern`], [`Piece`] and [`Seam`], field by field; [`Pattern::unfold`] checks it and writes every piece and seam
+//! out whole.
 //!
-//! A skirt of two equal pieces, each given by its right-hand half, which is the wearer's left at the front and the right at the back:
+//! A skirt of two equal pieces, each given by its right-hand half, which is the wearer's left at the front and the right
+//! at the back:
 //!
 //! ```
 //! let pattern = wardrobe::pattern::Pattern::from_json(r#"{

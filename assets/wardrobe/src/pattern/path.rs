@@ -24,13 +24,13 @@ pub(super) struct Path {
 
 /// Flattens the path of `segments` from `start` on.
 pub(super) fn flatten(start: DVec2, segments: &[Segment]) -> Result<Path> {
-    let mut path = Path { points: vec![sane(start.to_array())?], joints: Vec::new() };
+    let mut path = Path { points: vec![checked(start.to_array())?], joints: Vec::new() };
     for segment in segments {
         path.joints.push(path.points.len() - 1);
         match segment {
-            Segment::Straight(to) => path.points.push(sane(*to)?),
-            Segment::Curve { curve: [a, b, end] } => path.curve([sane(*a)?, sane(*b)?, sane(*end)?]),
-            Segment::Arc { arc: [through, end] } => path.arc(sane(*through)?, sane(*end)?)?,
+            Segment::Straight(to) => path.points.push(checked(*to)?),
+            Segment::Curve { curve: [a, b, end] } => path.curve([checked(*a)?, checked(*b)?, checked(*end)?]),
+            Segment::Arc { arc: [through, end] } => path.arc(checked(*through)?, checked(*end)?)?,
         }
         if path.points.len() > MOST_POINTS {
             return Err(Error::too_large(format!("more than {MOST_POINTS} points on one line")));
@@ -40,8 +40,8 @@ pub(super) fn flatten(start: DVec2, segments: &[Segment]) -> Result<Path> {
     Ok(path)
 }
 
-/// The point, refused where it cannot be one of a garment's.
-pub(super) fn sane(point: [f64; 2]) -> Result<DVec2> {
+/// The point, refused where it cannot be one of a garment's: see [`LARGEST`].
+pub(super) fn checked(point: [f64; 2]) -> Result<DVec2> {
     if point.iter().all(|x| x.abs() <= LARGEST) {
         return Ok(DVec2::from(point));
     }

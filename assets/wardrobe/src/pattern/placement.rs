@@ -9,8 +9,8 @@ use super::Hang;
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Placement {
     /// Wrapped round a limb of the figure: +v of the piece goes along the limb's axis towards its start (upwards on the
-    /// torso, towards the shoulder on an arm), +u counter-clockwise round it as seen from its start (on the torso: from the wearer's
-    /// right to the wearer's left at the front).
+    /// torso, towards the shoulder on an arm), +u counter-clockwise round it as seen from its start (on the torso: from
+    /// the wearer's right to the wearer's left at the front).
     Around {
         /// The limb's name: see [`crate::body::Figure`].
         limb: String,

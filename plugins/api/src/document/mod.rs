@@ -16,4 +16,4 @@ pub use asset::{Asset, FabricId, FabricInUse};
 pub use edit::Edit;
 pub use history::{Document, Gesture, Snapshot};
 pub use project::{PanelChoice, PanelLook, Project};
-pub use view::ViewSettings;
+pub use view::{Angles, Lens, NamedView, TurningStyle, ViewSettings};

@@ -11,7 +11,7 @@ use amc_core::mesh::{Garment, gltf};
 use amc_core::{Progress, exchange, export, reflectance};
 // The coverage counters that all code here is built with live in libFuzzer.
 use libfuzzer_sys as _;
-use studio_fuzz as _;
+use studio_fuzz::fuzz_targets::NEXT_FILE;
 
 type Outcome = Result<(), Box<dyn Error>>;
 
@@ -56,6 +56,14 @@ const GLTF: &str = r#"{"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_
     "bufferViews": [{"buffer": 0, "byteLength": 24, "byteStride": 8}, {"buffer": 0, "byteOffset": 24, "byteLength": 4}],
     "buffers": [{"byteLength": 28, "uri": "data:;base64,AAAAAAAAAAD/fwAAAAAAAAAA/38AAAAAAAECAQ=="}]}"#;
 
+/// What the data URI there holds.
+const GLTF_BUFFER: [u8; 28] =
+    [0, 0, 0, 0, 0, 0, 0, 0, 255, 127, 0, 0, 0, 0, 0, 0, 0, 0, 255, 127, 0, 0, 0, 0, 0, 1, 2, 1];
+
+/// Exif data of one tag, the orientation: the first row is seen on the right.
+const EXIF_ON_ITS_SIDE: &[u8] =
+    b"Exif\0\0MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0\0\0\0\0";
+
 fn main() -> Outcome {
     let satin = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/fabrics/satin.json");
     let satin = std::fs::read_to_string(satin)?;
@@ -98,6 +106,8 @@ fn meshes() -> Outcome {
     let garment = Garment::new(gltf::parse(GLTF.as_bytes(), &no_files)?)?;
     let directions = vec![Direction::default(); garment.panels.len()];
     let path = std::env::temp_dir().join("triangle.glb");
+    let beside = GLTF.replace("data:;base64,AAAAAAAAAAD/fwAAAAAAAAAA/38AAAAAAAECAQ==", "buffer%201.bin");
+    put("gltf_beside", "quantised.gltf", &[beside.as_bytes(), NEXT_FILE, &GLTF_BUFFER].concat())?;
     export::tangents(&garment, &tangents(&garment, &directions)?, &directions, &path)?;
     put("gltf", "triangle.glb", &std::fs::read(&path)?)?;
     export::garment(&garment, &path)?;
@@ -128,6 +138,7 @@ fn pictures(picture: &Picture) -> Outcome {
         let mut bytes = Vec::new();
         let mut encoder = jpeg_encoder::Encoder::new(&mut bytes, 80);
         encoder.set_progressive(progressive);
+        encoder.add_app_segment(1, EXIF_ON_ITS_SIDE.to_vec())?;
         encoder.encode(&samples[..(SIDE * SIDE) as usize * colours], side, side, kind)?;
         files.push((name, bytes));
     }
@@ -136,6 +147,24 @@ fn pictures(picture: &Picture) -> Outcome {
         put("exchange", name, &bytes)?;
     }
     Ok(())
+}
+
+/// The list of a slice folder, and its pictures.
+fn slice_folder(amc: &Amc) -> Result<Vec<u8>, Box<dyn Error>> {
+    let folder = std::env::temp_dir().join(format!("slices-{}", std::process::id()));
+    let table = folder.with_extension("amc.ktx2");
+    amc.save(&table)?;
+    let slices = exchange::Hints { output: Some(exchange::Kind::Slices), ..exchange::Hints::default() };
+    exchange::convert(&table, &folder, slices)?;
+    let mut bytes = std::fs::read(folder.join("slices.json"))?;
+    let suffix = if amc.format() == TexelFormat::Half { "exr" } else { "png" };
+    for slice in 0..amc.size().slices() {
+        bytes.extend(NEXT_FILE);
+        bytes.extend(std::fs::read(folder.join(format!("slice-{slice:04}.{suffix}")))?);
+    }
+    std::fs::remove_dir_all(&folder)?;
+    std::fs::remove_file(&table)?;
+    Ok(bytes)
 }
 
 /// 16 bits a channel, a grey one with alpha.
@@ -164,5 +193,6 @@ fn tables(amc: &Amc) -> Outcome {
     std::fs::remove_file(&from)?;
     std::fs::remove_file(&to)?;
     put("exchange", &format!("{kind}.atlas.{suffix}"), &atlas)?;
+    put("slices", &format!("{kind}.slices"), &slice_folder(amc)?)?;
     put("exchange", &name, &amc.to_ktx2()?)
 }

@@ -1,0 +1,20 @@
+//! Without a command: the window. Without a display: a picture in its place.
+
+use std::path::PathBuf;
+
+use super::output::Output;
+use super::{Outcome, demo};
+use crate::studio::Studio;
+
+pub(super) fn run(files: Vec<PathBuf>, output: &Output) -> Outcome {
+    if has_display() || !files.is_empty() {
+        return Ok(Studio::new().open(files).run()?);
+    }
+    demo::run(output)
+}
+
+/// Whether there is anything to open a window on. On systems other than these there always is.
+fn has_display() -> bool {
+    let named = |variable: &str| std::env::var_os(variable).is_some_and(|value| !value.is_empty());
+    !cfg!(all(unix, not(target_os = "macos"))) || named("DISPLAY") || named("WAYLAND_DISPLAY")
+}

@@ -1,0 +1,448 @@
+//! The application: what is open, and one frame of it.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use amc_core::render::gpu::Gpu;
+use eframe::egui::{self, Key, Modifiers, ViewportCommand};
+use studio_plugin::document::Document;
+use studio_plugin::{Context, Jobs, Notices, Registry, Request, Selection};
+
+use super::commands::{self, Action, Wanted};
+use super::desk::Desk;
+use super::dock::{self, Layout, Pane};
+use super::files::{self, Dialog, Opened, Purpose};
+use super::menu::Menu;
+use super::palette::Palette;
+use super::questions::{self, OfMissing, OfRecovery};
+use super::stager::Stager;
+use super::theme::{self, STEP, Tokens};
+use super::{texts, toasts};
+use crate::storage::Folders;
+use crate::viewport::{Viewport, ViewportInput};
+
+/// The studio's window.
+pub struct App {
+    desk: Desk,
+    selection: Selection,
+    jobs: Jobs,
+    notices: Notices,
+    registry: Registry,
+    stager: Stager,
+    gpu: Option<Gpu>,
+    viewport: Option<Viewport>,
+    layout: Layout,
+    palette: Palette,
+    dialog: Option<Dialog>,
+    /// Asked before the window closes with changes.
+    leaving: bool,
+    /// Changes are to be thrown away: the window may close.
+    discard: bool,
+    context: egui::Context,
+}
+
+impl std::fmt::Debug for App {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("App").field("desk", &self.desk).field("registry", &self.registry).finish_non_exhaustive()
+    }
+}
+
+impl App {
+    pub(super) fn new(
+        registry: Registry,
+        files: Vec<PathBuf>,
+        folders: Option<Folders>,
+        creation: &eframe::CreationContext<'_>,
+    ) -> Self {
+        theme::apply(&creation.egui_ctx);
+        let context = creation.egui_ctx.clone();
+        let render_state = creation.wgpu_render_state.as_ref();
+        let mut notices = Notices::default();
+        let mut app = Self {
+            desk: Desk::new(folders, &mut notices),
+            selection: Selection::default(),
+            jobs: Jobs::new(move || context.request_repaint()),
+            notices,
+            layout: dock::initial(&registry),
+            registry,
+            stager: Stager::default(),
+            gpu: render_state
+                .map(|state| Gpu { device: state.device.clone(), queue: state.queue.clone() }),
+            viewport: render_state.map(Viewport::new),
+            palette: Palette::default(),
+            dialog: None,
+            leaving: false,
+            discard: false,
+            context: creation.egui_ctx.clone(),
+        };
+        for file in files {
+            app.open(&file);
+        }
+        app
+    }
+
+    /// What the person works on.
+    pub fn document(&self) -> &Document {
+        &self.desk.document
+    }
+
+    /// Whether all that the document asks for is drawn, and nothing runs.
+    pub fn is_settled(&self) -> bool {
+        self.jobs.is_idle() && !self.desk.is_busy() && !self.stager.is_busy()
+    }
+
+    /// Opens a file as one that was dropped.
+    pub fn open(&mut self, file: &Path) {
+        match files::opened(file) {
+            Opened::Project(path) => self.desk.open(&path, &mut self.jobs),
+            Opened::Edit(edit) => {
+                if let Err(error) = self.desk.document.submit(edit, None) {
+                    self.notices.failed(error);
+                }
+            }
+            Opened::Import(path) => self.import(&path),
+        }
+    }
+
+    /// Saves to where the project is, else asks where.
+    fn save(&mut self) {
+        match self.desk.file.clone() {
+            Some(path) => self.save_to(&path),
+            None => self.ask(Purpose::Save),
+        }
+    }
+
+    /// Saves the project to a file, which is from then on where it is saved.
+    pub fn save_to(&mut self, path: &Path) {
+        self.desk.save(path, &mut self.jobs);
+    }
+
+    fn import(&mut self, file: &Path) {
+        let name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy().to_lowercase();
+        let takes = |registered: &studio_plugin::Registered| {
+            let importers = registered.plugin().importers();
+            !registered.is_off()
+                && importers.iter().flat_map(|it| it.suffixes).any(|suffix| name.ends_with(&format!(".{suffix}")))
+        };
+        let Some(index) = self.registry.plugins().iter().position(takes) else {
+            self.notices.failed(format!(
+                "nothing here opens '{name}': projects end in .amcproj, garments in .glb, .gltf or .obj, fabrics in .amc.ktx2"
+            ));
+            return;
+        };
+        self.with_context(|registry, studio| {
+            registry.plugins_mut()[index].call(studio, |plugin, studio| plugin.import(file, studio));
+        });
+    }
+
+    fn ask(&mut self, purpose: Purpose) {
+        if self.dialog.is_none() {
+            let name = files::suggested_name(self.desk.document.project());
+            self.dialog = Some(Dialog::open(purpose, &name, &mut self.jobs));
+        }
+    }
+
+    fn answered(&mut self) {
+        let Some(dialog) = &self.dialog else { return };
+        let Some(answer) = dialog.poll() else { return };
+        let purpose = dialog.purpose.clone();
+        self.dialog = None;
+        match (answer, purpose) {
+            (Ok(Some(path)), Purpose::Open) => self.open(&path),
+            (Ok(Some(path)), Purpose::Save) => self.save_to(&path),
+            (Ok(Some(path)), Purpose::Find(old)) => self.desk.locate(&old, &path, &mut self.notices),
+            (Ok(None), _) => {}
+            (Err(error), _) => self.notices.failed(error),
+        }
+    }
+
+    /// Lends plugins what they may see, then does what they asked for.
+    fn with_context<T>(&mut self, call: impl FnOnce(&mut Registry, &mut Context<'_>) -> T) -> T {
+        let mut requests = Vec::new();
+        let mut studio = Context::new(
+            (&self.desk.document, &self.stager.stage),
+            &mut self.selection,
+            (&mut self.jobs, &mut self.notices),
+            self.gpu.as_ref(),
+            &mut requests,
+        );
+        let outcome = call(&mut self.registry, &mut studio);
+        for request in requests {
+            self.grant(request);
+        }
+        outcome
+    }
+
+    fn grant(&mut self, request: Request) {
+        match request {
+            Request::Edit(edit, gesture) => {
+                if let Err(error) = self.desk.document.submit(edit, gesture) {
+                    self.notices.failed(error);
+                }
+            }
+            Request::GoTo(position) => self.desk.document.go_to(position),
+            Request::View(view) => self.desk.document.set_view(view),
+            Request::Copy(text) => self.context.copy_text(text),
+        }
+    }
+
+    fn run(&mut self, wanted: Wanted, ui: &egui::Ui) {
+        match wanted {
+            Wanted::Own(action) => self.act(action, ui),
+            Wanted::Plugin { plugin, command } => self.with_context(|registry, studio| {
+                if let Some(plugin) = registry.get_mut(plugin) {
+                    plugin.call(studio, |plugin, studio| {
+                        if plugin.can_run(command, studio) {
+                            plugin.run(command, studio);
+                        }
+                    });
+                }
+            }),
+        }
+    }
+
+    fn act(&mut self, action: Action, ui: &egui::Ui) {
+        match action {
+            Action::New => self.desk.begin(),
+            Action::Open => self.ask(Purpose::Open),
+            Action::Save => self.save(),
+            Action::SaveAs => self.ask(Purpose::Save),
+            Action::Quit => ui.send_viewport_cmd(ViewportCommand::Close),
+            Action::Undo => {
+                self.desk.document.undo();
+            }
+            Action::Redo => {
+                self.desk.document.redo();
+            }
+            Action::SelectAll => {
+                let panels = self.stager.stage.garment.iter().flat_map(|garment| &garment.panels);
+                let panels = panels.filter(|panel| panel.takes_fabric).map(|panel| panel.id.clone());
+                self.selection.panels = panels.collect();
+            }
+            Action::SelectNone => self.selection.panels.clear(),
+            Action::Palette => self.palette.toggle(),
+            Action::Theme => {
+                let other = if ui.theme() == egui::Theme::Dark { egui::Theme::Light } else { egui::Theme::Dark };
+                ui.set_theme(other);
+            }
+            Action::ResetLayout => self.layout = dock::initial(&self.registry),
+            Action::Larger => ui.set_zoom_factor((ui.zoom_factor() + 0.1).min(2.5)),
+            Action::Smaller => ui.set_zoom_factor((ui.zoom_factor() - 0.1).max(0.5)),
+        }
+    }
+
+    fn can_run(&self, wanted: Wanted) -> bool {
+        match wanted {
+            Wanted::Own(Action::Undo) => self.desk.document.undo_name().is_some(),
+            Wanted::Own(Action::Redo) => self.desk.document.redo_name().is_some(),
+            Wanted::Own(Action::SelectNone) => !self.selection.panels.is_empty(),
+            Wanted::Own(_) | Wanted::Plugin { .. } => true,
+        }
+    }
+
+    /// The command whose shortcut was pressed, unless somebody types a text.
+    fn pressed(
+        &self,
+        ui: &egui::Ui,
+        all: &[(&'static str, studio_plugin::Command, Wanted)],
+    ) -> Option<Wanted> {
+        let typing = ui.egui_wants_keyboard_input();
+        let fires = |shortcut: &egui::KeyboardShortcut| {
+            // Letters alone are for whoever is typing.
+            let plain = !shortcut.modifiers.command && !shortcut.modifiers.alt;
+            !(typing && plain) && ui.input_mut(|input| input.consume_shortcut(shortcut))
+        };
+        // Those with more modifiers first: what is pressed with Shift is not what is pressed without.
+        let mut with_keys: Vec<_> =
+            all.iter().filter_map(|(_, command, wanted)| Some((command.shortcut?, *wanted))).collect();
+        let count = |modifiers: Modifiers| {
+            u8::from(modifiers.command) + u8::from(modifiers.shift) + u8::from(modifiers.alt)
+        };
+        with_keys.sort_by_key(|(shortcut, _)| std::cmp::Reverse(count(shortcut.modifiers)));
+        with_keys.into_iter().find(|(shortcut, _)| fires(shortcut)).map(|(_, wanted)| wanted)
+    }
+
+    fn title(&self) -> String {
+        let name = self.desk.file.as_ref().and_then(|file| file.file_name());
+        name.map_or_else(|| texts::UNNAMED.to_owned(), |name| name.to_string_lossy().into_owned())
+    }
+
+    fn show_panes(&mut self, ui: &mut egui::Ui) {
+        // Taken out while it is shown: what is shown in it is the rest of the studio.
+        let mut layout = std::mem::replace(&mut self.layout, Layout::empty(egui::Id::unique("lent")));
+        let titles: Vec<(Pane, String)> = std::iter::once((Pane::Viewport, texts::VIEWPORT_TITLE.to_owned()))
+            .chain(self.registry.plugins().iter().filter(|it| !it.is_off()).flat_map(|it| {
+                let id = it.plugin().id();
+                it.plugin().panes().into_iter().map(move |pane| {
+                    (Pane::Plugin { plugin: id.to_owned(), pane: pane.id.to_owned() }, pane.title.to_owned())
+                })
+            }))
+            .collect();
+        let title = |wanted: &Pane| titles.iter().find(|(pane, _)| pane == wanted).map(|(_, title)| title.clone());
+        let mut show = |pane: &Pane, ui: &mut egui::Ui| match pane {
+            Pane::Viewport => self.show_viewport(ui),
+            Pane::Plugin { plugin, pane } => self.with_context(|registry, studio| {
+                if let Some(plugin) = registry.get_mut(plugin) {
+                    plugin.call(studio, |plugin, studio| plugin.show(pane, ui, studio));
+                }
+            }),
+        };
+        let mut behavior = dock::Behavior { tokens: Tokens::of(ui), title: &title, show: &mut show };
+        layout.ui(&mut behavior, ui);
+        self.layout = if dock::is_usable(&layout) { layout } else { dock::initial(&self.registry) };
+    }
+
+    fn show_viewport(&mut self, ui: &mut egui::Ui) {
+        let Some(viewport) = &mut self.viewport else {
+            ui.centered_and_justified(|ui| ui.label(texts::NO_GPU));
+            return;
+        };
+        let Some((drawing, picker)) = &self.stager.drawn else {
+            ui.centered_and_justified(|ui| ui.weak(texts::LOADING));
+            return;
+        };
+        viewport.set_scene(drawing.clone(), picker.clone());
+        let Some(garment) = &self.stager.stage.garment else { return };
+        let project = self.desk.document.project();
+        let number = |id: &String| garment.panels.iter().position(|panel| panel.id == *id);
+        let selected: BTreeSet<usize> = self.selection.panels.iter().filter_map(number).collect();
+        let hidden: BTreeSet<usize> =
+            (0..garment.panels.len()).filter(|&k| !project.look_of(&garment.panels[k]).visible).collect();
+        let tokens = Tokens::of(ui);
+        let input = ViewportInput {
+            selected: &selected,
+            hovered: self.selection.hovered.as_ref().and_then(number),
+            hidden: &hidden,
+            compared: None,
+            tool: false,
+            backdrop: tokens.gap,
+            selected_color: tokens.accent,
+            hovered_color: tokens.text_weak,
+        };
+        let mut view = project.view.clone();
+        let output = viewport.show(ui, &mut view, &input);
+        let id = |panel: usize| garment.panels.get(panel).map(|panel| panel.id.clone());
+        self.selection.hovered = output.hovered.and_then(id);
+        if let Some(click) = output.clicked {
+            match click.panel.and_then(id) {
+                Some(panel) => self.selection.click(&panel, click.add),
+                None if !click.add => self.selection.panels.clear(),
+                None => {}
+            }
+        }
+        if let Some(boxed) = output.boxed {
+            if !boxed.add {
+                self.selection.panels.clear();
+            }
+            self.selection.panels.extend(boxed.panels.into_iter().filter_map(id));
+        }
+        if view != project.view {
+            self.desk.document.set_view(view);
+        }
+    }
+
+    /// Takes in files that were dropped, and says while some are held over the window that they can be.
+    fn drops(&mut self, ui: &egui::Ui) {
+        let (dropped, held) =
+            ui.input(|input| (input.raw.dropped_files.clone(), !input.raw.hovered_files.is_empty()));
+        for file in dropped {
+            self.open(file.path());
+        }
+        if held {
+            let painter = ui.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop")));
+            let tokens = Tokens::of(ui);
+            let rect = ui.content_rect().shrink(4.0 * STEP);
+            painter.rect(rect, 2.0 * STEP, tokens.surface.gamma_multiply(0.9), egui::Stroke::new(2.0, tokens.accent), egui::StrokeKind::Inside);
+            painter.text(rect.center(), egui::Align2::CENTER_CENTER, texts::DROP_HERE, egui::TextStyle::Heading.resolve(ui.style()), tokens.text);
+        }
+    }
+
+    /// Asks what must be answered before the work goes on.
+    fn question(&mut self, ui: &egui::Ui) {
+        match questions::recovery(ui, &self.desk.recoverable) {
+            Some(OfRecovery::Recover(index)) => self.desk.recover(index, &mut self.notices),
+            Some(OfRecovery::Discard(index)) => self.desk.discard(index, &mut self.notices),
+            None => {}
+        }
+        match questions::missing(ui, &self.desk.missing) {
+            Some(OfMissing::Find(path)) => self.ask(Purpose::Find(path)),
+            Some(OfMissing::Without) => self.desk.missing.clear(),
+            None => {}
+        }
+    }
+
+    /// Holds the window open while there are changes that nobody has said what to do with.
+    fn leave(&mut self, ui: &egui::Ui) {
+        if ui.input(|input| input.viewport().close_requested()) && self.desk.document.is_changed() && !self.discard {
+            ui.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.leaving = true;
+        }
+        if !self.leaving {
+            return;
+        }
+        let mut save = false;
+        let modal = egui::Modal::new(egui::Id::unique("leaving")).show(ui, |ui| {
+            ui.heading(texts::UNSAVED_TITLE);
+            ui.label(texts::UNSAVED_TEXT);
+            ui.add_space(2.0 * STEP);
+            ui.horizontal(|ui| {
+                save = ui.button(texts::SAVE).clicked();
+                self.discard = ui.button(texts::DISCARD).clicked();
+                if ui.button(texts::STAY).clicked() {
+                    self.leaving = false;
+                }
+            });
+        });
+        if modal.should_close() {
+            self.leaving = false;
+        }
+        if save {
+            self.save();
+            self.leaving = false;
+        }
+        if self.discard {
+            ui.send_viewport_cmd(ViewportCommand::Close);
+        }
+    }
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        self.answered();
+        self.drops(ui);
+        self.with_context(|registry, studio| registry.each(studio, |plugin, studio| plugin.update(studio)));
+        self.desk.update(&mut self.notices);
+        self.stager.update(self.desk.document.project(), &mut self.jobs, &mut self.notices);
+        if let Some(garment) = &self.stager.stage.garment {
+            self.selection.retain(|id| garment.panels.iter().any(|panel| panel.id == id));
+        }
+        let all = commands::all(&self.registry);
+        let mut wanted = self.pressed(ui, &all);
+        let title = self.title();
+        let menu = Menu {
+            commands: &all,
+            can_run: &|wanted| self.can_run(wanted),
+            undo: self.desk.document.undo_name(),
+            redo: self.desk.document.redo_name(),
+            title: &title,
+            changed: self.desk.document.is_changed(),
+        };
+        let bar = egui::Panel::top("menu").show(ui, |ui| menu.show(ui)).inner;
+        wanted = wanted.or(bar);
+        egui::CentralPanel::no_frame().show(ui, |ui| self.show_panes(ui));
+        wanted = wanted.or(self.palette.show(ui, &all));
+        if let Some(wanted) = wanted {
+            self.run(wanted, ui);
+        }
+        if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+            self.selection.panels.clear();
+        }
+        toasts::show(ui, &self.notices);
+        self.question(ui);
+        self.leave(ui);
+    }
+
+    fn on_exit(&mut self) {
+        self.desk.finish();
+    }
+}

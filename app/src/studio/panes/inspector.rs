@@ -1,0 +1,207 @@
+//! The selected panels: fabric, direction, what the file says of them.
+
+use amc_core::direction::{Direction, Source};
+use amc_core::mesh::{Garment, Panel};
+use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
+use studio_plugin::document::{Edit, Gesture};
+use studio_plugin::{Command, Context, Pane, Place, Plugin};
+
+use super::panels::flags;
+use crate::studio::theme::STEP;
+
+/// The angle field: a drag of it is one gesture.
+#[derive(Debug, Default)]
+pub(super) struct Inspector {
+    dragged: Option<Gesture>,
+}
+
+const SWAP: Command = Command {
+    id: "swap",
+    name: "Swap warp and weft",
+    tooltip: "Turns the direction of the selected panels (of all, where none is) by 90 degrees",
+    shortcut: Some(KeyboardShortcut::new(Modifiers::NONE, Key::R)),
+};
+const BIAS: Command = Command {
+    id: "bias",
+    name: "Turn to the bias",
+    tooltip: "Turns the direction of the selected panels (of all, where none is) by 45 degrees",
+    shortcut: Some(KeyboardShortcut::new(Modifiers::SHIFT, Key::R)),
+};
+const GRAIN: Command = Command {
+    id: "grain",
+    name: "Back to the grain",
+    tooltip: "The selected panels (all, where none is) are cut along their grain again",
+    shortcut: None,
+};
+
+impl Plugin for Inspector {
+    fn id(&self) -> &'static str {
+        "inspector"
+    }
+
+    fn name(&self) -> &'static str {
+        "Direction"
+    }
+
+    fn commands(&self) -> Vec<Command> {
+        vec![SWAP, BIAS, GRAIN]
+    }
+
+    fn can_run(&self, _command: &str, studio: &Context<'_>) -> bool {
+        studio.stage.garment.is_some()
+    }
+
+    fn run(&mut self, command: &str, studio: &mut Context<'_>) {
+        let Some(garment) = studio.stage.garment.clone() else { return };
+        let panels = picked(&garment, studio);
+        let edit = if command == GRAIN.id {
+            Edit::SetDirection { panels: panels.iter().map(|panel| panel.id.clone()).collect(), direction: None }
+        } else {
+            let degrees: f32 = if command == SWAP.id { 90.0 } else { 45.0 };
+            let now = panels.iter().map(|panel| (panel.id.clone(), direction(panel, studio)));
+            Edit::TurnDirection { panels: now.collect(), by: degrees.to_radians() }
+        };
+        studio.submit(edit);
+    }
+
+    fn panes(&self) -> Vec<Pane> {
+        vec![Pane { id: "panel", title: "Panel", place: Place::Right }]
+    }
+
+    fn show(&mut self, _pane: &str, ui: &mut egui::Ui, studio: &mut Context<'_>) {
+        let Some(garment) = studio.stage.garment.clone() else {
+            ui.weak("The garment is being opened.");
+            return;
+        };
+        let panels = picked(&garment, studio);
+        match (studio.selection.panels.len(), panels.as_slice()) {
+            (0, _) => {
+                ui.heading("All panels");
+                ui.weak("Click a panel in the view or in the list to change it alone.");
+            }
+            (1, [panel]) => facts(ui, panel, &garment),
+            (count, _) => {
+                ui.heading(format!("{count} panels"));
+            }
+        }
+        if panels.is_empty() {
+            return;
+        }
+        ui.add_space(2.0 * STEP);
+        fabric(ui, &panels, studio);
+        self.angle(ui, &panels, studio);
+        for command in [SWAP, BIAS, GRAIN] {
+            if ui.button(command.name).on_hover_text(command.tooltip).clicked() {
+                self.run(command.id, studio);
+            }
+        }
+    }
+}
+
+/// The selected panels; where none is, all that take a fabric.
+fn picked<'a>(garment: &'a Garment, studio: &Context<'_>) -> Vec<&'a Panel> {
+    let selected = &studio.selection.panels;
+    let picked = |panel: &&Panel| {
+        if selected.is_empty() { panel.takes_fabric } else { selected.contains(&panel.id) }
+    };
+    garment.panels.iter().filter(picked).collect()
+}
+
+fn direction(panel: &Panel, studio: &Context<'_>) -> Direction {
+    let look = studio.document.project().look_of(panel);
+    look.direction.unwrap_or_else(|| Direction::along_grain(panel))
+}
+
+fn facts(ui: &mut egui::Ui, panel: &Panel, garment: &Garment) {
+    ui.heading(&panel.name);
+    let name = |index: usize| garment.panels.get(index).map_or("", |panel| panel.name.as_str());
+    let mut facts = vec![
+        ("Area", format!("{:.0} cm2", panel.area * 1e4)),
+        ("Triangles", panel.triangles.len().to_string()),
+    ];
+    if let Some(grain) = panel.pattern.grain {
+        facts.push(("Grain", format!("{:.1} degrees", grain.to_degrees())));
+    }
+    if let Some(mirror) = panel.pattern.mirror {
+        facts.push(("Mirror", name(mirror).to_owned()));
+    }
+    egui::Grid::new("facts").num_columns(2).show(ui, |ui| {
+        for (what, value) in facts {
+            ui.weak(what);
+            ui.label(value);
+            ui.end_row();
+        }
+    });
+    if panel.flags.mirrored || panel.flags.degenerate {
+        ui.label(flags(panel.flags));
+    }
+}
+
+fn fabric(ui: &mut egui::Ui, panels: &[&Panel], studio: &mut Context<'_>) {
+    let project = studio.document.project();
+    let worn: Vec<_> = panels.iter().map(|panel| project.look_of(panel).fabric).collect();
+    let same = worn.first().copied().filter(|first| worn.iter().all(|other| other == first));
+    let named = |id| project.fabrics.iter().find(|fabric| Some(fabric.id) == id).map(|fabric| fabric.name.clone());
+    let shown = match same {
+        Some(id) => named(id).unwrap_or_else(|| "no fabric".to_owned()),
+        None => "several".to_owned(),
+    };
+    let fabrics = project.fabrics.clone();
+    let ids: Vec<String> = panels.iter().map(|panel| panel.id.clone()).collect();
+    let box_ = egui::ComboBox::from_label("Fabric").selected_text(shown).show_ui(ui, |ui| {
+        for fabric in fabrics {
+            if ui.selectable_label(same == Some(Some(fabric.id)), &fabric.name).clicked() {
+                studio.submit(Edit::SetFabric { panels: ids.clone(), fabric: Some(fabric.id) });
+            }
+        }
+        if ui.selectable_label(same == Some(None), "no fabric").clicked() {
+            studio.submit(Edit::SetFabric { panels: ids.clone(), fabric: None });
+        }
+    });
+    box_.response.on_hover_text("What the panels are made of");
+}
+
+impl Inspector {
+    fn angle(&mut self, ui: &mut egui::Ui, panels: &[&Panel], studio: &mut Context<'_>) {
+        let now: Vec<(String, Direction)> =
+            panels.iter().map(|panel| (panel.id.clone(), direction(panel, studio))).collect();
+        let Some((_, first)) = now.first().cloned() else { return };
+        let mut degrees = first.angle.to_degrees();
+        let before = degrees;
+        ui.horizontal(|ui| {
+            let field = egui::DragValue::new(&mut degrees).speed(0.5).max_decimals(1).suffix("°");
+            let label = ui.label("Direction");
+            let field = ui.add(field).labelled_by(label.id).on_hover_text(
+                "Counter-clockwise in the flat pattern, from the right as drawn with v up; drag or type",
+            );
+            if field.drag_started() {
+                self.dragged = Some(Gesture::begin());
+            }
+            if degrees != before {
+                let edit = Edit::TurnDirection { panels: now.clone(), by: (degrees - before).to_radians() };
+                match self.dragged {
+                    Some(gesture) => studio.submit_in(gesture, edit),
+                    None => studio.submit(edit),
+                }
+            }
+            if field.drag_stopped() {
+                self.dragged = None;
+            }
+        });
+        ui.horizontal(|ui| {
+            for (source, name, tooltip) in [
+                (Source::Gradient, "Gradient", "Across the lines of equal u: the paper's direction"),
+                (Source::Yarn, "Yarn", "Where the yarn really goes on sheared cloth"),
+            ] {
+                if ui.radio(first.source == source, name).on_hover_text(tooltip).clicked() {
+                    let gesture = Gesture::begin();
+                    for (id, direction) in &now {
+                        let direction = Some(Direction { source, ..*direction });
+                        let edit = Edit::SetDirection { panels: vec![id.clone()], direction };
+                        studio.submit_in(gesture, edit);
+                    }
+                }
+            }
+        });
+    }
+}

@@ -1,0 +1,180 @@
+//! How the garment is looked at: angles, lens, shading.
+
+use amc_core::render::{Cyclic, Perspective};
+use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
+use studio_plugin::document::{Lens, NamedView, TurningStyle, ViewSettings};
+use studio_plugin::{Command, Context, Pane, Place, Plugin};
+
+use crate::studio::texts;
+
+pub(super) struct Look;
+
+/// The named views, in the order of [`NamedView::ALL`].
+const NAMED: [(&str, &str, Key); 6] = [
+    ("front", "Front view", Key::Num1),
+    ("back", "Back view", Key::Num2),
+    ("left", "Left view", Key::Num3),
+    ("right", "Right view", Key::Num4),
+    ("top", "View from above", Key::Num5),
+    ("bottom", "View from below", Key::Num6),
+];
+
+const FIT: Command = Command {
+    id: "fit",
+    name: "Fit the garment",
+    tooltip: "Shows the whole garment in the middle of the view",
+    shortcut: Some(KeyboardShortcut::new(Modifiers::NONE, Key::Num0)),
+};
+const AUTO_TURN: Command = Command {
+    id: "auto-turn",
+    name: "Turn by itself",
+    tooltip: "The garment turns until this is chosen again",
+    shortcut: Some(KeyboardShortcut::new(Modifiers::NONE, Key::T)),
+};
+
+/// Degrees per second of a garment that turns by itself.
+const TURNING_SPEED: f32 = 30.0;
+
+/// The focal length that perspective begins with, millimetres: a portrait lens.
+const FOCAL_LENGTH: f32 = 85.0;
+
+impl Plugin for Look {
+    fn id(&self) -> &'static str {
+        "look"
+    }
+
+    fn name(&self) -> &'static str {
+        texts::VIEW_MENU
+    }
+
+    fn commands(&self) -> Vec<Command> {
+        let named = NAMED.into_iter().map(|(id, name, key)| Command {
+            id,
+            name,
+            tooltip: "Turns the garment; the camera and the light stay",
+            shortcut: Some(KeyboardShortcut::new(Modifiers::NONE, key)),
+        });
+        named.chain([FIT, AUTO_TURN]).collect()
+    }
+
+    fn run(&mut self, command: &str, studio: &mut Context<'_>) {
+        let mut view = studio.document.project().view.clone();
+        if command == FIT.id {
+            view.fit();
+        } else if command == AUTO_TURN.id {
+            view.auto_turn = if view.auto_turn.is_some() { None } else { Some(TURNING_SPEED) };
+        } else if let Some(index) = NAMED.iter().position(|(id, ..)| *id == command) {
+            view.look(NamedView::ALL[index]);
+        }
+        studio.set_view(view);
+    }
+
+    fn panes(&self) -> Vec<Pane> {
+        vec![Pane { id: "settings", title: "Look", place: Place::Right }]
+    }
+
+    fn show(&mut self, _pane: &str, ui: &mut egui::Ui, studio: &mut Context<'_>) {
+        let before = &studio.document.project().view;
+        let mut view = before.clone();
+        egui::Grid::new("look").num_columns(2).show(ui, |ui| {
+            angles(ui, &mut view);
+            lens(ui, &mut view);
+            shading(ui, &mut view);
+        });
+        ui.checkbox(&mut view.occlusion, "Darken the folds").on_hover_text("Ambient occlusion of every vertex");
+        let mut turns = view.auto_turn.is_some();
+        if ui.checkbox(&mut turns, AUTO_TURN.name).on_hover_text(AUTO_TURN.tooltip).changed() {
+            view.auto_turn = turns.then_some(TURNING_SPEED);
+        }
+        if view != *before {
+            studio.set_view(view);
+        }
+    }
+}
+
+fn angles(ui: &mut egui::Ui, view: &mut ViewSettings) {
+    let mut angles = view.angles();
+    let before = angles;
+    for (name, tooltip, value) in [
+        ("Yaw", "About the garment's vertical axis", &mut angles.yaw),
+        ("Pitch", "Towards the viewer or away", &mut angles.pitch),
+        ("Roll", "In the plane of the picture", &mut angles.roll),
+    ] {
+        let label = ui.label(name);
+        let field = egui::DragValue::new(value).speed(0.5).max_decimals(1).suffix("°");
+        ui.add(field).labelled_by(label.id).on_hover_text(tooltip);
+        ui.end_row();
+    }
+    if angles != before {
+        view.set_angles(angles);
+    }
+    choice(
+        ui,
+        "Dragging",
+        &mut view.turning,
+        &[(TurningStyle::Arcball, "Turns it as a ball"), (TurningStyle::Turntable, "Keeps it upright")],
+    );
+}
+
+fn lens(ui: &mut egui::Ui, view: &mut ViewSettings) {
+    let mut perspective = view.lens != Lens::Orthographic;
+    choice(ui, "Lens", &mut perspective, &[(false, "Parallel"), (true, "Perspective")]);
+    let mut focal_length = match view.lens {
+        Lens::Orthographic => FOCAL_LENGTH,
+        Lens::Perspective { focal_length_mm } => focal_length_mm,
+    };
+    if perspective {
+        let label = ui.label("Focal length");
+        let field = egui::DragValue::new(&mut focal_length).range(12.0..=1200.0).speed(1.0).suffix(" mm");
+        ui.add(field).labelled_by(label.id).on_hover_text("For a frame of 36 x 24 mm");
+        ui.end_row();
+    }
+    view.lens =
+        if perspective { Lens::Perspective { focal_length_mm: focal_length } } else { Lens::Orthographic };
+}
+
+fn shading(ui: &mut egui::Ui, view: &mut ViewSettings) {
+    let modes = [
+        ("amc", "Cloth"),
+        ("isotropic", "Without direction"),
+        ("normals", "Normals"),
+        ("tangents", "Directions"),
+        ("uv", "Flat pattern"),
+    ];
+    let modes = modes.map(|(id, name)| (id.to_owned(), name));
+    choice(ui, "Shading", &mut view.mode, &modes);
+    choice(
+        ui,
+        "Azimuth",
+        &mut view.cyclic,
+        &[
+            (Cyclic::Cyclic, "Per vertex, cyclic"),
+            (Cyclic::Fragment, "Per fragment"),
+            (Cyclic::Naive, "Per vertex, naive"),
+        ],
+    );
+    choice(
+        ui,
+        "Perspective",
+        &mut view.perspective,
+        &[
+            (Perspective::Half, "Half vector"),
+            (Perspective::Full, "Full"),
+            (Perspective::Paper, "Paper"),
+            (Perspective::Off, "Off"),
+        ],
+    );
+}
+
+/// A row with one of several to choose.
+fn choice<T: PartialEq + Clone>(ui: &mut egui::Ui, name: &str, value: &mut T, all: &[(T, &str)]) {
+    let label = ui.label(name);
+    let shown = all.iter().find(|(each, _)| each == value).map_or("", |(_, name)| name);
+    let list = egui::ComboBox::from_id_salt(name).selected_text(shown).show_ui(ui, |ui| {
+        for (each, name) in all {
+            ui.selectable_value(value, each.clone(), *name);
+        }
+    });
+    list.response.labelled_by(label.id);
+    ui.end_row();
+}

@@ -1,0 +1,20 @@
+//! The studio's own panes: plugins like any other. A pane is one file here and one line below.
+
+mod activity;
+mod fabrics;
+mod history;
+mod inspector;
+mod look;
+mod panels;
+
+use studio_plugin::Registry;
+
+/// Registers them, in the order of their tabs.
+pub(super) fn register(registry: &mut Registry) {
+    registry.register(panels::Panels);
+    registry.register(fabrics::Fabrics);
+    registry.register(inspector::Inspector::default());
+    registry.register(look::Look);
+    registry.register(history::History);
+    registry.register(activity::Activity);
+}

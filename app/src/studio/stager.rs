@@ -1,0 +1,228 @@
+//! From the document to what is drawn, in jobs: garment and fabrics loaded, directions and vertices made.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use amc_core::amc::Amc;
+use amc_core::direction::{self, Direction};
+use amc_core::mesh::{Garment, Picker, Unit};
+use amc_core::render::{Cloth, Drawing};
+use amc_core::{Progress, Result};
+use glam::Vec2;
+use studio_plugin::document::{Asset, FabricId, Project};
+use studio_plugin::{Job, Jobs, Notices, Stage};
+
+use crate::scene::{load_fabric, load_garment, vertex_occlusion};
+
+/// Keeps what is drawn in step with the document.
+#[derive(Debug, Default)]
+pub(super) struct Stager {
+    pub(super) stage: Stage,
+    /// What is drawn, and to pick panels in it.
+    pub(super) drawn: Option<(Arc<Drawing>, Arc<Picker>)>,
+    garment: Loading<Asset, Loaded>,
+    fabrics: BTreeMap<FabricId, Loading<Asset, Arc<Amc>>>,
+    loaded: Option<Loaded>,
+    drawing: Option<Job<Drawing>>,
+    /// What the drawing was last made of.
+    drawn_of: Option<Recipe>,
+}
+
+/// Something that is loaded once, until it is to be something else.
+#[derive(Debug)]
+struct Loading<K, T> {
+    wanted: Option<K>,
+    job: Option<Job<T>>,
+}
+
+impl<K, T> Default for Loading<K, T> {
+    fn default() -> Self {
+        Self { wanted: None, job: None }
+    }
+}
+
+/// A garment with what is reckoned from it alone.
+#[derive(Debug, Clone)]
+struct Loaded {
+    garment: Arc<Garment>,
+    occlusion: Arc<Vec<Vec2>>,
+    picker: Arc<Picker>,
+}
+
+/// Everything a drawing follows from: equal recipes make equal drawings.
+#[derive(Debug, Clone)]
+struct Recipe {
+    loaded: Loaded,
+    looks: Vec<(Option<FabricId>, Direction)>,
+    fabrics: BTreeMap<FabricId, Arc<Amc>>,
+}
+
+impl PartialEq for Recipe {
+    fn eq(&self, other: &Self) -> bool {
+        let same_fabrics = self.fabrics.len() == other.fabrics.len()
+            && self
+                .fabrics
+                .iter()
+                .zip(&other.fabrics)
+                .all(|((a, x), (b, y))| a == b && Arc::ptr_eq(x, y));
+        Arc::ptr_eq(&self.loaded.garment, &other.loaded.garment) && self.looks == other.looks && same_fabrics
+    }
+}
+
+impl Stager {
+    /// Starts what is to be done and takes in what is done. To be called once a frame.
+    pub(super) fn update(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
+        self.update_garment(project, jobs, notices);
+        self.update_fabrics(project, jobs, notices);
+        self.update_drawing(project, jobs, notices);
+    }
+
+    /// Whether something is still to come.
+    pub(super) fn is_busy(&self) -> bool {
+        self.garment.job.is_some() || self.drawing.is_some() || self.fabrics.values().any(|it| it.job.is_some())
+    }
+
+    fn update_garment(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
+        if self.garment.wanted.as_ref() != Some(&project.garment) {
+            let asset = project.garment.clone();
+            self.garment.wanted = Some(asset.clone());
+            self.garment.job =
+                Some(jobs.start(format!("Opening {}", asset.name()), move |progress| Loaded::new(&asset, progress)));
+        }
+        if let Some(result) = self.garment.job.as_ref().and_then(Job::poll) {
+            self.garment.job = None;
+            match result {
+                Ok(loaded) => {
+                    for notice in &loaded.garment.notices {
+                        notices.note(notice);
+                    }
+                    self.stage.garment = Some(Arc::clone(&loaded.garment));
+                    self.loaded = Some(loaded);
+                }
+                Err(error) => notices.failed(error),
+            }
+        }
+    }
+
+    fn update_fabrics(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
+        let wanted: BTreeSet<FabricId> = project.fabrics.iter().map(|fabric| fabric.id).collect();
+        self.fabrics.retain(|id, _| wanted.contains(id));
+        self.stage.fabrics.retain(|id, _| wanted.contains(id));
+        for fabric in &project.fabrics {
+            let loading = self.fabrics.entry(fabric.id).or_default();
+            if loading.wanted.as_ref() != Some(&fabric.asset) {
+                let asset = fabric.asset.clone();
+                loading.wanted = Some(asset.clone());
+                loading.job = Some(jobs.start(format!("Opening {}", fabric.name), move |progress| {
+                    load_fabric(&path(&asset), progress).map(Arc::new)
+                }));
+            }
+            if let Some(result) = loading.job.as_ref().and_then(Job::poll) {
+                loading.job = None;
+                match result {
+                    Ok(amc) => {
+                        self.stage.fabrics.insert(fabric.id, amc);
+                    }
+                    Err(error) => notices.failed(error),
+                }
+            }
+        }
+    }
+
+    fn update_drawing(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
+        if let Some(result) = self.drawing.as_ref().and_then(Job::poll) {
+            self.drawing = None;
+            match (result, &self.drawn_of) {
+                (Ok(drawing), Some(recipe)) => {
+                    self.drawn = Some((Arc::new(drawing), Arc::clone(&recipe.loaded.picker)));
+                }
+                (Ok(_), None) => {}
+                (Err(error), _) => notices.failed(error),
+            }
+        }
+        let Some(loaded) = &self.loaded else { return };
+        // One at a time: what has changed meanwhile is drawn next.
+        if self.drawing.is_some() {
+            return;
+        }
+        let recipe = Recipe {
+            loaded: loaded.clone(),
+            looks: looks(project, &loaded.garment, &self.stage.fabrics),
+            fabrics: self.stage.fabrics.clone(),
+        };
+        if self.drawn_of.as_ref() != Some(&recipe) {
+            self.drawn_of = Some(recipe.clone());
+            self.drawing = Some(jobs.start("Directions", move |_| recipe.drawing()));
+        }
+    }
+}
+
+impl Loaded {
+    fn new(asset: &Asset, progress: &Progress<'_>) -> Result<Self> {
+        let garment = load_garment(&path(asset), Unit::Metre)?;
+        let occlusion = vertex_occlusion(&garment, progress)?;
+        let plain = Drawing::new(&garment, &garment.normals, None, Vec::new(), |_| Cloth::Plain)?;
+        let picker = Picker::new(&plain)?;
+        Ok(Self { garment: Arc::new(garment), occlusion: Arc::new(occlusion), picker: Arc::new(picker) })
+    }
+}
+
+impl Recipe {
+    fn drawing(&self) -> Result<Drawing> {
+        let garment = &self.loaded.garment;
+        let directions: Vec<Direction> = self.looks.iter().map(|look| look.1).collect();
+        let tangents = direction::tangents(garment, &directions)?;
+        let numbers: BTreeMap<FabricId, usize> = self.fabrics.keys().copied().zip(0..).collect();
+        let cloth = |panel: usize| {
+            self.looks[panel].0.and_then(|id| numbers.get(&id)).map_or(Cloth::Plain, |&n| Cloth::Fabric(n))
+        };
+        let fabrics = self.fabrics.values().cloned().collect();
+        Drawing::new(garment, &tangents.vectors, Some(&self.loaded.occlusion), fabrics, cloth)
+    }
+}
+
+/// Every panel's fabric, where it is loaded, and direction.
+fn looks(
+    project: &Project,
+    garment: &Garment,
+    loaded: &BTreeMap<FabricId, Arc<Amc>>,
+) -> Vec<(Option<FabricId>, Direction)> {
+    let look = |panel: &amc_core::mesh::Panel| {
+        let look = project.look_of(panel);
+        let fabric = look.fabric.filter(|id| loaded.contains_key(id));
+        (fabric, look.direction.unwrap_or_else(|| Direction::along_grain(panel)))
+    };
+    garment.panels.iter().map(look).collect()
+}
+
+/// What the loaders know an asset by.
+fn path(asset: &Asset) -> PathBuf {
+    match asset {
+        Asset::Bundled(name) => PathBuf::from(name),
+        Asset::File { path, .. } => path.clone(),
+    }
+}
+
+/// The end of a file's name by which it is known, and what it then is.
+pub(super) fn kind(file: &Path) -> Option<Kind> {
+    let name = file.file_name()?.to_string_lossy().to_lowercase();
+    let ends = |suffixes: &[&str]| suffixes.iter().any(|suffix| name.ends_with(suffix));
+    if ends(&[".amcproj"]) {
+        Some(Kind::Project)
+    } else if ends(&[".glb", ".gltf", ".obj"]) {
+        Some(Kind::Garment)
+    } else if ends(&[".ktx2"]) {
+        Some(Kind::Fabric)
+    } else {
+        None
+    }
+}
+
+/// What a file is, by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Project,
+    Garment,
+    Fabric,
+}

@@ -1,0 +1,29 @@
+//! The words of the window that do not belong to one pane or command alone.
+
+pub(super) const PROGRAM: &str = "AMC Studio";
+pub(super) const UNNAMED: &str = "Unnamed project";
+pub(super) const FILE_MENU: &str = "File";
+pub(super) const EDIT_MENU: &str = "Edit";
+pub(super) const SELECT_MENU: &str = "Select";
+pub(super) const VIEW_MENU: &str = "View";
+pub(super) const WINDOW_MENU: &str = "Window";
+pub(super) const PALETTE_HINT: &str = "Type what you want to do";
+pub(super) const PALETTE_NOTHING: &str = "No command is called that";
+pub(super) const VIEWPORT_TITLE: &str = "View";
+pub(super) const NO_GPU: &str = "There is no graphics adapter: install a graphics driver (in software: Mesa). Your work can be edited and saved all the same.";
+pub(super) const LOADING: &str = "Opening the garment ...";
+pub(super) const DROP_HERE: &str = "Drop garments, fabrics and projects here";
+pub(super) const UNSAVED_TITLE: &str = "Save the changes?";
+pub(super) const UNSAVED_TEXT: &str = "The project has changes that are not saved.";
+pub(super) const SAVE: &str = "Save";
+pub(super) const DISCARD: &str = "Discard";
+pub(super) const STAY: &str = "Go on working";
+pub(super) const UNDO: &str = "Undo";
+pub(super) const REDO: &str = "Redo";
+pub(super) const RECOVER_TITLE: &str = "Unsaved work was found";
+pub(super) const RECOVER_TEXT: &str = "The studio was not closed properly. This was not saved:";
+pub(super) const RECOVER: &str = "Take it back";
+pub(super) const MISSING_TITLE: &str = "Some files are not there";
+pub(super) const MISSING_TEXT: &str = "They were moved, renamed or deleted. What is missing is left out of the view and kept in the project.";
+pub(super) const FIND: &str = "Find ...";
+pub(super) const WITHOUT: &str = "Go on without them";

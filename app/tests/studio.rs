@@ -1,0 +1,167 @@
+//! Journeys through the real interface: every step as a person takes it, by its label, drawn by the real renderer.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use amc_studio::studio::{App, Studio};
+use eframe::egui::{self, Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use studio_plugin::{Context, Pane, Place, Plugin};
+
+/// How long loading may take before the test counts as hung.
+const PATIENCE: Duration = Duration::from_secs(240);
+
+/// A window that keeps its things in `folder`.
+fn window(studio: Studio, folder: &Path) -> Harness<'static, App> {
+    let studio = studio.keeping_in(folder.join("kept"));
+    let mut harness = Harness::builder()
+        .with_size([1280.0, 800.0])
+        .with_max_steps(100)
+        .wgpu()
+        .build_eframe(move |creation| studio.into_app(creation));
+    settle(&mut harness);
+    harness
+}
+
+/// Runs frames until all that the document asks for is drawn.
+fn settle(harness: &mut Harness<'_, App>) {
+    let start = Instant::now();
+    harness.step();
+    while !harness.state().is_settled() {
+        assert!(start.elapsed() < PATIENCE, "still not settled");
+        std::thread::sleep(Duration::from_millis(5));
+        harness.step();
+    }
+    harness.run_steps(2);
+}
+
+fn press(harness: &mut Harness<'_, App>, modifiers: Modifiers, key: Key) {
+    harness.key_press_modifiers(modifiers, key);
+    settle(harness);
+}
+
+fn click(harness: &mut Harness<'_, App>, label: &str) {
+    harness.get_by_label(label).click();
+    settle(harness);
+}
+
+/// The degrees of a panel's direction, where it was given one.
+fn degrees(harness: &Harness<'_, App>, panel: &str) -> Option<f32> {
+    let look = harness.state().document().project().look(panel);
+    look.direction.map(|direction| direction.angle.to_degrees())
+}
+
+fn picture(harness: &mut Harness<'_, App>) -> Vec<u8> {
+    harness.render().unwrap().into_raw()
+}
+
+#[test]
+fn a_panel_is_picked_turned_undone_saved_and_opened_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.amcproj");
+    let mut harness = window(Studio::new(), folder.path());
+    let first = picture(&mut harness);
+
+    harness.get_by(|node| node.label().is_some_and(|label| label.starts_with("Back"))).click();
+    settle(&mut harness);
+    let panel = "back";
+    let before = degrees(&harness, panel);
+    press(&mut harness, Modifiers::NONE, Key::R);
+    let turned = degrees(&harness, panel).unwrap();
+    assert_eq!(harness.state().document().undo_name(), Some("Swap warp and weft of 1 panel"));
+    let swapped = picture(&mut harness);
+    assert_ne!(first, swapped);
+
+    press(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert_eq!(degrees(&harness, panel), before);
+    press(&mut harness, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
+    assert_eq!(degrees(&harness, panel), Some(turned));
+
+    harness.state_mut().save_to(&file);
+    settle(&mut harness);
+    assert!(!harness.state().document().is_changed());
+    let saved = harness.state().document().project().clone();
+    drop(harness);
+
+    let mut again = window(Studio::new().open([file]), folder.path());
+    assert_eq!(again.state().document().project(), &saved);
+    assert_eq!(degrees(&again, panel), Some(turned));
+    picture(&mut again);
+}
+
+#[test]
+fn the_palette_finds_a_command_by_a_few_letters() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    press(&mut harness, Modifiers::COMMAND, Key::P);
+    harness.get_by_label("Type what you want to do").type_text("bias");
+    settle(&mut harness);
+    press(&mut harness, Modifiers::NONE, Key::Enter);
+    let project = harness.state().document().project();
+    assert!(project.panels.values().all(|look| look.direction.is_some()));
+    assert!(harness.state().document().undo_name().is_some_and(|name| name.contains("45")));
+}
+
+/// A plugin that fails when its pane is drawn.
+struct Faulty;
+
+impl Plugin for Faulty {
+    fn id(&self) -> &'static str {
+        "faulty"
+    }
+
+    fn name(&self) -> &'static str {
+        "Faulty"
+    }
+
+    fn panes(&self) -> Vec<Pane> {
+        vec![Pane { id: "pane", title: "Faulty pane", place: Place::Right }]
+    }
+
+    fn update(&mut self, _studio: &mut Context<'_>) {
+        panic!("on purpose");
+    }
+}
+
+#[test]
+fn a_plugin_that_panics_is_switched_off_and_the_rest_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new().with_plugin(Faulty), folder.path());
+    click(&mut harness, "Log");
+    harness.get_by(|node| node.label().is_some_and(|label| label.contains("'Faulty' failed")));
+    assert!(harness.query_by_label("Faulty pane").is_none());
+    press(&mut harness, Modifiers::NONE, Key::R);
+    assert!(harness.state().document().undo_name().is_some());
+}
+
+#[test]
+fn what_cannot_be_opened_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let odd = folder.path().join("notes.txt");
+    std::fs::write(&odd, "hello").unwrap();
+    let mut harness = window(Studio::new().open([odd, folder.path().join("gone.glb")]), folder.path());
+    click(&mut harness, "Log");
+    for said in ["notes.txt", "gone.glb"] {
+        harness.get_by(|node| node.label().is_some_and(|label| label.contains(said) && label.contains("open")));
+    }
+}
+
+/// A look at the window, for whoever makes the pictures of the guide: `cargo test -p amc-studio --test studio -- --ignored`.
+#[test]
+#[ignore = "writes pictures, asserts nothing about them"]
+fn pictures_of_the_window() {
+    let folder = tempfile::tempdir().unwrap();
+    for theme in [egui::Theme::Dark, egui::Theme::Light] {
+        let mut harness = Harness::builder()
+            .with_size([1440.0, 900.0])
+            .with_theme(theme)
+            .wgpu()
+            .build_eframe(|creation| Studio::new().keeping_in(folder.path()).into_app(creation));
+        settle(&mut harness);
+        let name = format!("studio-{}.png", if theme == egui::Theme::Dark { "dark" } else { "light" });
+        harness.render().unwrap().save(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)).unwrap();
+    }
+}

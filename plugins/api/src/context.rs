@@ -1,0 +1,75 @@
+//! What a plugin sees of the studio.
+
+use amc_core::render::gpu::Gpu;
+
+use crate::document::{Document, Edit, Gesture, ViewSettings};
+use crate::{Jobs, Notices, Selection, Stage};
+
+/// The studio, as a plugin sees it for the length of one call.
+#[derive(Debug)]
+pub struct Context<'a> {
+    /// What the person works on. It is changed by [`Context::submit`].
+    pub document: &'a Document,
+    /// What the document refers to, as far as it is loaded.
+    pub stage: &'a Stage,
+    /// What is picked.
+    pub selection: &'a mut Selection,
+    /// For what takes longer than a frame.
+    pub jobs: &'a mut Jobs,
+    /// To tell the person something.
+    pub notices: &'a mut Notices,
+    /// The graphics device; none where the studio draws on the processor.
+    pub gpu: Option<&'a Gpu>,
+    requests: &'a mut Vec<Request>,
+}
+
+/// What is done after the call, in the order asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Request {
+    /// An edit, and the gesture it is part of.
+    Edit(Edit, Option<Gesture>),
+    /// So many of the document's steps are to be done.
+    GoTo(usize),
+    /// Another view.
+    View(ViewSettings),
+    /// A text for the clipboard.
+    Copy(String),
+}
+
+impl<'a> Context<'a> {
+    /// Requests go to the end of `requests`.
+    pub fn new(
+        (document, stage): (&'a Document, &'a Stage),
+        selection: &'a mut Selection,
+        (jobs, notices): (&'a mut Jobs, &'a mut Notices),
+        gpu: Option<&'a Gpu>,
+        requests: &'a mut Vec<Request>,
+    ) -> Self {
+        Self { document, stage, selection, jobs, notices, gpu, requests }
+    }
+
+    /// Submits an edit: one step of the undo.
+    pub fn submit(&mut self, edit: Edit) {
+        self.requests.push(Request::Edit(edit, None));
+    }
+
+    /// Submits an edit that is part of a gesture: all edits of one gesture are one step.
+    pub fn submit_in(&mut self, gesture: Gesture, edit: Edit) {
+        self.requests.push(Request::Edit(edit, Some(gesture)));
+    }
+
+    /// Undoes or does again, until so many steps are done.
+    pub fn go_to(&mut self, position: usize) {
+        self.requests.push(Request::GoTo(position));
+    }
+
+    /// Looks at the garment in another way.
+    pub fn set_view(&mut self, view: ViewSettings) {
+        self.requests.push(Request::View(view));
+    }
+
+    /// Puts a text into the clipboard.
+    pub fn copy(&mut self, text: impl Into<String>) {
+        self.requests.push(Request::Copy(text.into()));
+    }
+}

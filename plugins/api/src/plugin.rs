@@ -1,0 +1,95 @@
+//! The trait of plugins, and what they declare.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::{Command, Context};
+
+/// Where a pane is put until the person puts it elsewhere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// Beside the viewport, on the left.
+    Left,
+    /// Beside the viewport, on the right.
+    Right,
+    /// Below the viewport.
+    Bottom,
+}
+
+/// A dockable part of the window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pane {
+    /// Stable, and unique within its plugin: layouts are kept by it.
+    pub id: &'static str,
+    /// The text of its tab.
+    pub title: &'static str,
+    /// Where it is put at first.
+    pub place: Place,
+}
+
+/// Files that a plugin takes in, by dialog or dropped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Importer {
+    /// What they are: "Garments".
+    pub name: &'static str,
+    /// Ends of their names, without a dot, in lower case: `amc.ktx2`.
+    pub suffixes: &'static [&'static str],
+}
+
+/// A part of the studio that can be added or left out. Every method but the first two has a default.
+///
+/// No method may take longer than a share of a frame: long work goes to [`Context::jobs`]. One that panics switches its
+/// plugin off, with a notice; the rest of the studio goes on.
+pub trait Plugin {
+    /// Stable, unique among plugins: lower case, words joined by `-`.
+    fn id(&self) -> &'static str;
+
+    /// For people.
+    fn name(&self) -> &'static str;
+
+    /// What it can be asked for.
+    fn commands(&self) -> Vec<Command> {
+        Vec::new()
+    }
+
+    /// Whether a command can be run now; it is greyed out where not.
+    fn can_run(&self, _command: &str, _studio: &Context<'_>) -> bool {
+        true
+    }
+
+    /// Runs a command of [`Plugin::commands`].
+    fn run(&mut self, _command: &str, _studio: &mut Context<'_>) {}
+
+    /// Its panes.
+    fn panes(&self) -> Vec<Pane> {
+        Vec::new()
+    }
+
+    /// Draws a pane of [`Plugin::panes`].
+    fn show(&mut self, _pane: &str, _ui: &mut egui::Ui, _studio: &mut Context<'_>) {}
+
+    /// What it takes in.
+    fn importers(&self) -> Vec<Importer> {
+        Vec::new()
+    }
+
+    /// Takes in a file with one of the suffixes of [`Plugin::importers`].
+    fn import(&mut self, _file: &Path, _studio: &mut Context<'_>) {}
+
+    /// Called once a frame, before anything is drawn: to take in what jobs have made.
+    fn update(&mut self, _studio: &mut Context<'_>) {}
+
+    /// What is to be kept with the person's settings.
+    fn settings(&self) -> Option<Value> {
+        None
+    }
+
+    /// Takes back what [`Plugin::settings`] gave, perhaps in another version.
+    ///
+    /// # Errors
+    /// It makes no sense; the plugin then goes on with its defaults.
+    fn restore(&mut self, _settings: Value) -> amc_core::Result<()> {
+        Ok(())
+    }
+}

@@ -1,0 +1,91 @@
+//! The plugins of a studio.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use crate::{Context, Plugin};
+
+/// A registered plugin.
+pub struct Registered {
+    plugin: Box<dyn Plugin>,
+    /// It panicked, and is called no more.
+    off: bool,
+}
+
+impl std::fmt::Debug for Registered {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Registered").field("id", &self.plugin.id()).field("off", &self.off).finish()
+    }
+}
+
+impl Registered {
+    /// The plugin, to be asked what it declares.
+    pub fn plugin(&self) -> &dyn Plugin {
+        self.plugin.as_ref()
+    }
+
+    /// Whether it was switched off.
+    pub fn is_off(&self) -> bool {
+        self.off
+    }
+
+    /// Calls it, unless it is off. Where it panics, it is switched off, with a notice.
+    pub fn call<T>(
+        &mut self,
+        studio: &mut Context<'_>,
+        call: impl FnOnce(&mut dyn Plugin, &mut Context<'_>) -> T,
+    ) -> Option<T> {
+        if self.off {
+            return None;
+        }
+        // What a panic leaves half done inside the plugin is never looked at again.
+        let outcome = catch_unwind(AssertUnwindSafe(|| call(self.plugin.as_mut(), studio)));
+        if outcome.is_err() {
+            self.off = true;
+            let name = self.plugin.name();
+            studio.notices.failed(format!(
+                "the plugin '{name}' failed and is switched off until the studio is started again; your work is not touched"
+            ));
+        }
+        outcome.ok()
+    }
+}
+
+/// All plugins, in the order they were registered.
+#[derive(Debug, Default)]
+pub struct Registry {
+    plugins: Vec<Registered>,
+}
+
+impl Registry {
+    /// Adds a plugin. One of the same id takes the place of the former.
+    pub fn register(&mut self, plugin: impl Plugin + 'static) {
+        self.plugins.retain(|known| known.plugin.id() != plugin.id());
+        self.plugins.push(Registered { plugin: Box::new(plugin), off: false });
+    }
+
+    /// All of them.
+    pub fn plugins(&self) -> &[Registered] {
+        &self.plugins
+    }
+
+    /// All of them, to be called.
+    pub fn plugins_mut(&mut self) -> &mut [Registered] {
+        &mut self.plugins
+    }
+
+    /// The plugin of this id.
+    pub fn get_mut(&mut self, id: &str) -> Option<&mut Registered> {
+        self.plugins.iter_mut().find(|known| known.plugin.id() == id)
+    }
+
+    /// Calls all that are on.
+    pub fn each(
+        &mut self,
+        studio: &mut Context<'_>,
+        mut call: impl FnMut(&mut dyn Plugin, &mut Context<'_>),
+    ) {
+        for plugin in &mut self.plugins {
+            plugin.call(studio, &mut call);
+        }
+    }
+}
