@@ -4,6 +4,7 @@
 //! the disk. The full run: `cargo test -p amc-studio --test kill -- --ignored --nocapture`.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::print_stdout, reason = "the process that is killed reports to its killer")]
 
 use std::collections::BTreeMap;
 use std::io::{BufRead as _, BufReader};
@@ -58,17 +59,18 @@ fn report(what: &str, edit: usize) {
 fn worker() {
     let Some(folder) = std::env::var_os(FOLDER).map(PathBuf::from) else { return };
     let file = file(&folder);
-    let autosave = Autosave::start_every(INTERVAL, &folder.join("recovery"), Arc::new(System)).unwrap();
+    let mut autosave = Autosave::start_every(INTERVAL, &folder.join("recovery"), Arc::new(System)).unwrap();
     let Claim::Ours(_lock) = ProjectLock::claim(&folder.join("locks"), &file).unwrap() else {
         panic!("the one before is dead")
     };
     let mut document = Document::new(Project::default());
+    let unknown = Arc::new(Unknown::default());
     let mut reported = 0;
     println!("\n{REPORT} ready 0 0");
     for edit in 1.. {
         document.submit(Edit::SetNotes(notes(edit)), None).unwrap();
         report("edited", edit);
-        autosave.keep(document.snapshot().project, Arc::default(), Some(&file));
+        autosave.follow(&document, &unknown, Some(&file));
         std::thread::sleep(Duration::from_millis(1));
         if let Some(kept) = autosave.kept().map(|kept| edit_of(&kept)).filter(|&kept| kept != reported) {
             report("kept", kept);
@@ -77,10 +79,10 @@ fn worker() {
         // Longer and shorter spells without a save.
         if edit % 97 % 40 == 0 {
             report("saving", edit);
-            save(&System, &file, document.project(), &Unknown::default()).unwrap();
+            save(&System, &file, document.project(), &unknown).unwrap();
             document.mark_saved();
             report("saved", edit);
-            autosave.forget();
+            autosave.follow(&document, &unknown, Some(&file));
         }
     }
 }

@@ -7,7 +7,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use amc_core::{Error, Result};
-use studio_plugin::document::Project;
+use studio_plugin::document::{Document, Project};
 
 use super::recovery::Session;
 use super::{Disk, Recoverable, Unknown};
@@ -19,6 +19,8 @@ use super::{Disk, Recoverable, Unknown};
 /// unsaved stays on the disk and is offered again.
 pub struct Autosave {
     shared: Arc<Shared>,
+    /// What it was told last: revision, whether there is something to save.
+    followed: Option<(u64, bool)>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -92,11 +94,24 @@ impl Autosave {
             .name("autosave".to_owned())
             .spawn(move || keeper.run())
             .map_err(|error| Error::io("cannot start the thread that keeps unsaved work", error))?;
-        Ok(Self { shared, thread: Some(thread) })
+        Ok(Self { shared, followed: None, thread: Some(thread) })
     }
 
-    /// Says that `project` is not saved. To be called whenever [`studio_plugin::document::Document::revision`] has risen.
-    /// `belongs_to` is the file it was opened from or saved to.
+    /// Keeps `document`, or forgets it where there is nothing to save. To be called once a frame: it does something only
+    /// when something has changed. `belongs_to` is the file it was opened from or saved to.
+    pub fn follow(&mut self, document: &Document, unknown: &Arc<Unknown>, belongs_to: Option<&Path>) {
+        let now = Some((document.revision(), document.is_changed()));
+        if self.followed == now {
+            return;
+        }
+        self.followed = now;
+        match document.is_changed() {
+            true => self.keep(document.snapshot().project, Arc::clone(unknown), belongs_to),
+            false => self.forget(),
+        }
+    }
+
+    /// Says that `project` is not saved. `belongs_to` is the file it was opened from or saved to.
     pub fn keep(&self, project: Arc<Project>, unknown: Arc<Unknown>, belongs_to: Option<&Path>) {
         let belongs_to = belongs_to.map(Path::to_owned);
         self.tell(|wanted| wanted.next = Next::Keep(Work { project, unknown, belongs_to }));

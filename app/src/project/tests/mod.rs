@@ -21,8 +21,7 @@ use super::{Disk, System};
 
 /// A project that has something of everything; its files lie in `folder`.
 fn rich(folder: &Path) -> Project {
-    let mut project = Project::default();
-    project.garment = Asset::file(folder.join("coat.glb"));
+    let mut project = Project { garment: Asset::file(folder.join("coat.glb")), ..Project::default() };
     for (number, asset) in [
         (4, Asset::file(folder.join("fabrics/silk.amc.ktx2"))),
         (9, Asset::file(folder.parent().unwrap().join("library/tweed.amc.ktx2"))),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use studio_plugin::document::Project;
+use studio_plugin::document::{Document, Edit, Project};
 
 use super::super::{Autosave, Claim, ProjectLock, Recoverable, System, Unknown, recoverable, save};
 use super::{Faulty, rich, write_files};
@@ -62,6 +62,40 @@ fn nothing_stays_after_a_clean_end_or_a_save() {
     drop(autosave);
     assert!(works(folder.path()).is_empty());
     assert_eq!(files(folder.path()), 0);
+}
+
+#[test]
+fn a_document_that_is_followed_is_kept_while_it_is_unsaved() {
+    let folder = tempfile::tempdir().unwrap();
+    let disk = Arc::new(Faulty::default());
+    let mut autosave = Autosave::start_every(SOON, folder.path(), Arc::clone(&disk) as _).unwrap();
+    let mut document = Document::new(Project::default());
+    let mut frames = |document: &Document, is_kept: bool| {
+        for _ in 0..2000 {
+            autosave.follow(document, &Arc::default(), None);
+            if autosave.kept().is_some() == is_kept {
+                break;
+            }
+            std::thread::sleep(SOON);
+        }
+        assert_eq!(
+            autosave.kept().map(|kept| kept.notes.clone()),
+            is_kept.then(|| document.project().notes.clone())
+        );
+    };
+    frames(&document, false);
+    document.submit(Edit::SetNotes("work".to_owned()), None).unwrap();
+    frames(&document, true);
+    document.mark_saved();
+    frames(&document, false);
+    document.undo().unwrap();
+    frames(&document, true);
+    // Idle frames write nothing.
+    let writes = disk.saves.load(Ordering::SeqCst);
+    (0..100).for_each(|_| frames(&document, true));
+    assert_eq!(disk.saves.load(Ordering::SeqCst), writes);
+    drop(autosave);
+    assert_eq!(works(folder.path()).len(), 1);
 }
 
 #[test]

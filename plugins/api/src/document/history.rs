@@ -95,7 +95,7 @@ impl Document {
             position: 0,
             limit: Self::HISTORY_BYTES,
             open: None,
-            revision: 0,
+            revision: next_revision(),
             last_id: 0,
             saved: Some(0),
         }
@@ -195,7 +195,7 @@ impl Document {
         }
     }
 
-    /// Rises with every change of the project but the view's.
+    /// Rises with every change of the project but the view's. No two documents of a process ever have the same.
     pub fn revision(&self) -> u64 {
         self.revision
     }
@@ -245,7 +245,7 @@ impl Document {
         let view = self.project.view.clone();
         self.project = self.state().project.clone();
         self.set_view(view);
-        self.revision += 1;
+        self.revision = next_revision();
     }
 
     fn push(&mut self, name: String, project: Arc<Project>) {
@@ -274,6 +274,11 @@ impl Document {
             self.position = self.position.min(self.steps.len());
         }
     }
+}
+
+fn next_revision() -> u64 {
+    static NEXT: AtomicU64 = AtomicU64::new(0);
+    NEXT.fetch_add(1, Ordering::Relaxed)
 }
 
 fn is_same_but_view(a: &Project, b: &Project) -> bool {
