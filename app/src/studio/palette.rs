@@ -20,7 +20,7 @@ pub(super) struct Palette {
 /// How well a query fits a name: its letters in this order, wherever they stand; none where they do not. The less the
 /// better: letters left out between, and where it begins.
 fn distance(query: &str, name: &str) -> Option<usize> {
-    let mut rest = name.char_indices();
+    let mut rest = name.chars().enumerate();
     let mut last = None;
     let mut sum = 0;
     for wanted in query.chars().filter(|letter| !letter.is_whitespace()).flat_map(char::to_lowercase) {
