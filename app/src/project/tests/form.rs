@@ -4,7 +4,7 @@ use std::path::Path;
 
 use amc_core::ErrorKind;
 use serde_json::{Value, json};
-use studio_plugin::document::{Asset, FabricId, Project};
+use studio_plugin::document::{Angles, Asset, FabricId, Project};
 
 use super::super::{FILE_LIMIT, Unknown, encode, parse};
 use super::rich;
@@ -58,6 +58,18 @@ fn any_angle_comes_back_to_the_last_bit() {
 }
 
 #[test]
+fn any_view_comes_back_to_the_last_bit() {
+    let mut project = Project::default();
+    for k in 0..500 {
+        let angle = |step: f64| f64::from(k) * step;
+        project.view.set_angles(Angles { yaw: angle(7.1), pitch: angle(3.3), roll: angle(0.9) });
+        project.view.pan = glam::Vec2::new(angle(0.013) as f32, -angle(0.7) as f32);
+        let bytes = encode(&project, &Unknown::default(), None).unwrap();
+        assert_eq!(parse(&bytes, None).unwrap().project, project, "{k}");
+    }
+}
+
+#[test]
 fn a_project_written_by_hand_may_leave_out_almost_everything() {
     let bare = parse(br#"{"version": 1}"#, None).unwrap().project;
     assert_eq!(bare, Project { fabrics: Vec::new(), ..Project::default() });
@@ -103,6 +115,7 @@ fn faults_have_a_place_and_a_reason() {
     assert!(said(r#"{"version": -1}"#).starts_with("version: "));
     assert!(said(r#"{"garment": 3}"#).starts_with("garment: "));
     assert!(said(r#"{"panels": {}}"#).contains("add \"version\": 1"));
+    assert!(said(r#"{"version": 1, "view": {"zoom": 1e30}}"#).starts_with("view, zoom: "));
     assert!(said(r#"{"version": 1, "garment": {"file": "a"}}"#).contains("an asset is a name"));
     assert!(said(r#"{"version": 1, "panels": {"a": {"fabric": 5}}}"#).starts_with("panels.a: "));
     let twice = r#"{"version": 1, "fabrics": [{"id": 1, "asset": "fabric:satin"}, {"id": 1, "asset": "fabric:satin"}]}"#;

@@ -15,7 +15,7 @@ use std::time::SystemTime;
 use amc_core::direction::{Direction, Field, Source};
 use amc_core::{Error, Result};
 use glam::Vec3;
-use studio_plugin::document::{Asset, FabricId, FabricInUse, PanelChoice, Project};
+use studio_plugin::document::{Angles, Asset, FabricId, FabricInUse, PanelChoice, Project};
 
 use super::{Disk, System};
 
@@ -38,6 +38,8 @@ fn rich(folder: &Path) -> Project {
         let fabric = [None, Some(None), Some(Some(FabricId::new(9)))][k];
         project.panels.insert(format!("panel-{k}"), PanelChoice { fabric, direction, visible: k != 1 });
     }
+    project.view.set_angles(Angles { yaw: 12.3, pitch: -45.6, roll: 78.9 });
+    project.view.zoom = 1.7;
     project.notes = "two \"lines\"\nof Grüße".to_owned();
     project
 }

@@ -49,7 +49,6 @@ pub struct Document {
     limit: usize,
     open: Option<OpenGesture>,
     revision: u64,
-    last_id: u64,
     /// The state that is in the file; none: none is.
     saved: Option<u64>,
 }
@@ -58,6 +57,7 @@ pub struct Document {
 #[derive(Debug, Clone)]
 struct State {
     project: Arc<Project>,
+    /// No two states of a process have the same, so that a save that ends late marks no other document.
     id: u64,
     bytes: usize,
 }
@@ -86,7 +86,8 @@ impl Document {
     /// A document without history, as if just saved. [`Document::mark_unsaved`] says otherwise.
     pub fn new(project: Project) -> Self {
         let project = Arc::new(project);
-        let origin = State { bytes: project.bytes(), project: project.clone(), id: 0 };
+        let id = next_number();
+        let origin = State { bytes: project.bytes(), project: project.clone(), id };
         Self {
             project,
             bytes: origin.bytes,
@@ -95,9 +96,8 @@ impl Document {
             position: 0,
             limit: Self::HISTORY_BYTES,
             open: None,
-            revision: next_revision(),
-            last_id: 0,
-            saved: Some(0),
+            revision: id,
+            saved: Some(id),
         }
     }
 
@@ -200,8 +200,16 @@ impl Document {
         self.revision
     }
 
-    /// Looks at the garment in another way. No step, no unsaved change, no new revision; saved with the project.
+    /// Looks at the garment in another way. No step, no unsaved change, no new revision; saved with the project. One that
+    /// makes no sense ([`ViewSettings::check`]) is not taken.
     pub fn set_view(&mut self, view: ViewSettings) {
+        match view.check() {
+            Ok(()) => self.replace_view(view),
+            Err(error) => log::warn!("the view is not taken: {error}"),
+        }
+    }
+
+    fn replace_view(&mut self, view: ViewSettings) {
         if self.project.view != view {
             Arc::make_mut(&mut self.project).view = view;
         }
@@ -244,15 +252,14 @@ impl Document {
     fn show_state(&mut self) {
         let view = self.project.view.clone();
         self.project = self.state().project.clone();
-        self.set_view(view);
-        self.revision = next_revision();
+        self.replace_view(view);
+        self.revision = next_number();
     }
 
     fn push(&mut self, name: String, project: Arc<Project>) {
-        self.last_id += 1;
         let bytes = project.bytes() + size_of::<Step>() + name.len();
         self.bytes += bytes;
-        self.steps.push_back(Step { name, after: State { project, id: self.last_id, bytes } });
+        self.steps.push_back(Step { name, after: State { project, id: next_number(), bytes } });
         self.position = self.steps.len();
         while self.bytes > self.limit && self.steps.len() > 1 {
             let Some(oldest) = self.steps.pop_front() else { break };
@@ -276,7 +283,8 @@ impl Document {
     }
 }
 
-fn next_revision() -> u64 {
+/// Larger than all before it in this process.
+fn next_number() -> u64 {
     static NEXT: AtomicU64 = AtomicU64::new(0);
     NEXT.fetch_add(1, Ordering::Relaxed)
 }

@@ -137,7 +137,7 @@ impl Project {
     }
 
     /// Checks what must be true of every project: assets that can be what they are used as, fabrics with names and ids of
-    /// their own, chosen fabrics that are in use, directions that are numbers, and the limits above.
+    /// their own, chosen fabrics that are in use, directions that are numbers, a view that makes sense, and the limits above.
     ///
     /// # Errors
     /// The first thing that is not so, and where.
@@ -145,6 +145,7 @@ impl Project {
         self.garment.check_garment().map_err(|error| error.at_element("garment"))?;
         self.check_fabrics()?;
         self.check_panels()?;
+        self.view.check()?;
         if self.notes.len() > Self::LONGEST_NOTES {
             return Err(Error::too_large(format!(
                 "the notes are longer than {} KiB: keep the rest in a file beside the project",

@@ -1,6 +1,6 @@
 //! Steps, gestures, what is saved, and the memory limit.
 
-use super::super::{Document, Edit, Gesture, Project};
+use super::super::{Document, Edit, Gesture, Project, ViewSettings};
 use super::{panels, turn};
 
 fn hide(panel: &str) -> Edit {
@@ -83,6 +83,34 @@ fn what_is_saved_is_known_through_undo_and_later_edits() {
     assert!(!document.is_changed());
     document.mark_unsaved();
     assert!(document.is_changed());
+}
+
+#[test]
+fn a_save_that_ends_late_marks_no_other_document() {
+    let saving = Document::new(Project::default()).snapshot();
+    let mut other = Document::new(Project::default());
+    other.mark_unsaved();
+    other.mark_snapshot_saved(&saving);
+    assert!(other.is_changed());
+}
+
+#[test]
+fn the_view_is_no_work_and_is_not_undone() {
+    let mut document = Document::new(Project::default());
+    document.submit(hide("a"), None).unwrap();
+    document.mark_saved();
+    let revision = document.revision();
+    let mut view = ViewSettings::default();
+    view.zoom = f32::NAN;
+    document.set_view(view.clone());
+    assert_eq!(document.project().view, ViewSettings::default());
+    view.zoom = 2.0;
+    document.set_view(view.clone());
+    assert_eq!((document.revision(), document.is_changed(), document.position()), (revision, false, 1));
+    document.undo().unwrap();
+    assert_eq!(document.project().view, view);
+    document.submit(hide("b"), None).unwrap();
+    assert_eq!(document.project().view, view);
 }
 
 #[test]
