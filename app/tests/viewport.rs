@@ -115,6 +115,7 @@ fn window(drawing: Option<Arc<Drawing>>, pixels_per_point: f32) -> (Harness<'sta
         .with_size(SIZE)
         .with_pixels_per_point(pixels_per_point)
         .with_render_cursor(false)
+        .with_step_dt(1.0 / 60.0)
         .renderer(WgpuTestRenderer::from_render_state(render_state.clone()))
         .build_ui_state(|ui, window: &mut Window| window.ui(ui), window);
     (harness, render_state)
@@ -159,17 +160,29 @@ fn press(
     modifiers: Modifiers,
 ) {
     harness.event(egui::Event::PointerMoved(at));
-    harness.event_modifiers(egui::Event::PointerButton { pos: at, button, pressed, modifiers }, modifiers);
+    harness.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
     harness.step();
 }
 
 fn drag(harness: &mut Harness<'_, Window>, way: &[Pos2], button: PointerButton, modifiers: Modifiers) {
+    harness.event(egui::Event::ModifiersChanged(modifiers));
     press(harness, way[0], button, true, modifiers);
     for &at in &way[1..] {
         harness.event(egui::Event::PointerMoved(at));
         harness.step();
     }
     press(harness, way[way.len() - 1], button, false, modifiers);
+    harness.event(egui::Event::ModifiersChanged(Modifiers::NONE));
+    harness.step();
+}
+
+fn click(harness: &mut Harness<'_, Window>, at: Pos2, modifiers: Modifiers) {
+    // Two clicks in a row are a double click.
+    harness.run_steps(40);
+    harness.event(egui::Event::ModifiersChanged(modifiers));
+    press(harness, at, PointerButton::Primary, true, modifiers);
+    press(harness, at, PointerButton::Primary, false, modifiers);
+    harness.event(egui::Event::ModifiersChanged(Modifiers::NONE));
     harness.step();
 }
 
@@ -338,10 +351,7 @@ fn clicks_and_boxes_select_what_is_seen() {
     for panel in [Some(0), Some(1), None] {
         let at = of_panel(panel);
         for modifiers in [Modifiers::NONE, Modifiers::COMMAND] {
-            // Two clicks in a row are a double click.
-            harness.run_steps(40);
-            press(&mut harness, at, PointerButton::Primary, true, modifiers);
-            press(&mut harness, at, PointerButton::Primary, false, modifiers);
+            click(&mut harness, at, modifiers);
             let click = Click { panel, add: modifiers != Modifiers::NONE };
             assert_eq!(harness.state_mut().clicks.drain(..).collect::<Vec<_>>(), [click]);
         }
