@@ -207,8 +207,7 @@ fn what_is_not_there_yet_is_refused_as_such() {
     let folder = scratch();
     let here = folder.path();
     for arguments in [
-        &["a.amcproj"][..],
-        &["render", "a.amcproj", "-o", "a.png"],
+        &["render", "a.amcproj", "-o", "a.png"][..],
         &["render", "shape:torus", "-o", "a.png", "--shading", "lines"],
         &["microfacet", "fit", "x"],
         &["capture", "-o", "x", "--turntable", "sim:"],
@@ -229,6 +228,12 @@ fn what_is_not_there_yet_is_refused_as_such() {
     ] {
         refused(here, arguments, 2);
     }
+}
+
+#[test]
+fn without_a_display_files_are_not_opened_and_it_says_so() {
+    let folder = scratch();
+    assert!(refused(folder.path(), &["a.amcproj"], 1).contains("no window can be opened"));
 }
 
 #[test]

@@ -386,7 +386,9 @@ impl App {
 
     /// Asks what must be answered before the work goes on.
     fn question(&mut self, ui: &egui::Ui) {
-        match questions::recovery(ui, &self.desk.recoverable) {
+        // One at a time: what is taken back would take the place of what is not saved yet.
+        let offered = if self.desk.document.is_changed() { &[] } else { self.desk.recoverable.as_slice() };
+        match questions::recovery(ui, offered) {
             Some(OfRecovery::Recover(index)) => self.desk.recover(index, &mut self.notices),
             Some(OfRecovery::Discard(index)) => self.desk.discard(index, &mut self.notices),
             None => {}
