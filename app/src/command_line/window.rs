@@ -7,10 +7,14 @@ use super::{Outcome, demo};
 use crate::studio::Studio;
 
 pub(super) fn run(files: Vec<PathBuf>, output: &Output) -> Outcome {
-    if has_display() || !files.is_empty() {
+    if has_display() {
         return Ok(Studio::new().open(files).run()?);
     }
-    demo::run(output)
+    if files.is_empty() {
+        return demo::run(output);
+    }
+    let what = "no window can be opened: neither DISPLAY nor WAYLAND_DISPLAY is set; commands such as 'render' need none";
+    Err(amc_core::Error::device(what).into())
 }
 
 /// Whether there is anything to open a window on. On systems other than these there always is.
