@@ -3,10 +3,15 @@
 use std::path::PathBuf;
 
 use super::output::Output;
-use super::{Outcome, demo};
+use super::{Failure, Outcome, demo};
 use crate::studio::Studio;
 
 pub(super) fn run(files: Vec<PathBuf>, output: &Output) -> Outcome {
+    // A word that is no file was most likely meant as a command.
+    if let Some(word) = files.iter().find(|file| file.extension().is_none() && !file.exists()) {
+        let what = format!("there is no command and no file called '{}'; see --help", word.display());
+        return Err(Failure::Usage(what));
+    }
     if has_display() {
         return Ok(Studio::new().open(files).run()?);
     }
