@@ -173,7 +173,7 @@ fn a_plugin_that_panics_is_switched_off_and_the_rest_goes_on() {
 fn what_cannot_be_opened_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let odd = folder.path().join("notes.txt");
-    std::fs::write(&odd, "hello").unwrap();
+    amc_core::file::save_bytes(&odd, b"hello").unwrap();
     let mut harness = window(Studio::new().open([odd, folder.path().join("gone.glb")]), folder.path());
     click(&mut harness, "Log");
     assert!(reads(&harness, &["nothing here opens 'notes.txt'"]));
