@@ -40,7 +40,7 @@ pub(super) struct Reading<'a> {
     plan: &'a Plan,
     progress: &'a Progress<'a>,
     done: AtomicUsize,
-    /// Memory of pictures that are done with: about two for each thread.
+    /// Memory of pictures that are done with: about one for each thread.
     buffers: Mutex<Vec<Vec<u8>>>,
 }
 
@@ -49,14 +49,13 @@ impl<'a> Reading<'a> {
         Self { plan, progress, done: AtomicUsize::new(0), buffers: Mutex::default() }
     }
 
-    /// The texels of pictures, which are done with.
-    fn texels(&self, footprints: &Footprints, pictures: Vec<(usize, Raster)>) -> Vec<(usize, Vec<f16>)> {
-        let (numbers, rasters): (Vec<usize>, Vec<Raster>) = pictures.into_iter().unzip();
-        let texels = footprints.resample(&rasters);
-        if let Ok(mut buffers) = self.buffers.lock() {
-            buffers.extend(rasters.into_iter().filter_map(Raster::into_buffer));
+    /// The texels of a picture, which is done with.
+    fn texels(&self, footprints: &Footprints, raster: Raster) -> Vec<f16> {
+        let texels = footprints.resample(&raster);
+        if let (Some(buffer), Ok(mut buffers)) = (raster.into_buffer(), self.buffers.lock()) {
+            buffers.push(buffer);
         }
-        numbers.into_iter().zip(texels).collect()
+        texels
     }
 
     fn read(&self, planned: &Planned) -> Result<Raster> {
@@ -121,27 +120,21 @@ impl<'a> Reading<'a> {
         kept: Vec<(usize, Raster)>,
         footprints: &Footprints,
     ) -> Result<Stack> {
-        let mut left: Vec<usize> = (0..self.plan.pictures.len()).collect();
-        left.retain(|k| kept.iter().all(|(other, _)| other != k));
-        let mut kept = kept;
-        let mut pairs = Vec::with_capacity(kept.len().div_ceil(2));
-        while !kept.is_empty() {
-            pairs.push(kept.split_off(kept.len().saturating_sub(2)));
+        let mut texels: Vec<Option<Vec<f16>>> = vec![None; self.plan.pictures.len()];
+        let from_kept: Vec<(usize, Vec<f16>)> =
+            kept.into_par_iter().map(|(k, raster)| (k, self.texels(footprints, raster))).collect();
+        for (k, resampled) in from_kept {
+            texels[k] = Some(resampled);
         }
-        let mut texels: Vec<(usize, Vec<f16>)> =
-            pairs.into_par_iter().flat_map_iter(|pair| self.texels(footprints, pair)).collect();
-        // Two at a time, or a thread that is done early waits for several of another's.
-        let rest: Vec<Vec<(usize, Vec<f16>)>> = left
-            .par_chunks(2)
-            .with_max_len(1)
-            .map(|pair| {
-                let read: Result<Vec<_>> = pair.iter().map(|&k| self.read_like(first, k)).collect();
-                Ok(self.texels(footprints, read?))
-            })
-            .collect::<Result<_>>()?;
-        texels.extend(rest.into_iter().flatten());
-        texels.sort_by_key(|(k, _)| *k);
-        Ok(Stack { pictures: texels.into_iter().map(|(_, texels)| texels).collect() })
+        // One at a time, or a thread that is done early waits for several of another's.
+        texels.par_iter_mut().enumerate().with_max_len(1).try_for_each(|(k, texels)| {
+            if texels.is_none() {
+                let (_, raster) = self.read_like(first, k)?;
+                *texels = Some(self.texels(footprints, raster));
+            }
+            Ok(())
+        })?;
+        Ok(Stack { pictures: texels.into_iter().flatten().collect() })
     }
 }
 

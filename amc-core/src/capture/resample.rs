@@ -98,66 +98,42 @@ impl Footprints {
         all
     }
 
-    /// The texels' red, green and blue in linear light, one after the other, of each picture; NaN where a picture's
-    /// coverage leaves too little.
-    pub(super) fn resample(&self, pictures: &[Raster]) -> Vec<Vec<f16>> {
-        let mut texels = Vec::with_capacity(pictures.len());
-        for pair in pictures.chunks(2) {
-            match pair {
-                // The footprints are larger than the caches nearest to a core: two pictures share the way to them.
-                [a, b] if a.channels() == b.channels() => match (a.samples(), b.samples()) {
-                    (Samples::U8(x), Samples::U8(y)) => texels.extend(self.of_bytes(a.channels(), [x, y])),
-                    (Samples::U16(x), Samples::U16(y)) => texels.extend(self.of_words(a.channels(), [x, y])),
-                    (Samples::F32(x), Samples::F32(y)) => texels.extend(self.of_floats(a.channels(), [x, y])),
-                    _ => texels.extend(pair.iter().flat_map(|picture| self.of_one(picture))),
-                },
-                _ => texels.extend(pair.iter().flat_map(|picture| self.of_one(picture))),
-            }
-        }
-        texels
-    }
-
-    fn of_one(&self, picture: &Raster) -> [Vec<f16>; 1] {
+    /// The texels' red, green and blue in linear light, one after the other; NaN where the picture's coverage leaves
+    /// too little.
+    pub(super) fn resample(&self, picture: &Raster) -> Vec<f16> {
         match picture.samples() {
-            Samples::U8(samples) => self.of_bytes(picture.channels(), [samples]),
-            Samples::U16(samples) => self.of_words(picture.channels(), [samples]),
-            Samples::F32(samples) => self.of_floats(picture.channels(), [samples]),
+            Samples::U8(samples) => {
+                let eight = &*LINEAR_FROM_SRGB8;
+                let linear = |v: u8| eight[usize::from(v)];
+                self.by_channels(picture.channels(), samples, linear, |a| f32::from(a) / 255.0)
+            }
+            Samples::U16(samples) => {
+                let sixteen = &**LINEAR_FROM_SRGB16;
+                let linear = |v: u16| sixteen.get(usize::from(v)).copied().unwrap_or(1.0);
+                self.by_channels(picture.channels(), samples, linear, |a| f32::from(a) / 65535.0)
+            }
+            Samples::F32(samples) => self.by_channels(picture.channels(), samples, |v| v, |a| a),
         }
     }
 
-    fn of_bytes<const P: usize>(&self, channels: u32, pictures: [&Vec<u8>; P]) -> [Vec<f16>; P] {
-        let eight = &*LINEAR_FROM_SRGB8;
-        self.by_channels(channels, pictures, |v| eight[usize::from(v)], |a| f32::from(a) / 255.0)
-    }
-
-    fn of_words<const P: usize>(&self, channels: u32, pictures: [&Vec<u16>; P]) -> [Vec<f16>; P] {
-        let sixteen = &**LINEAR_FROM_SRGB16;
-        let linear = |v: u16| sixteen.get(usize::from(v)).copied().unwrap_or(1.0);
-        self.by_channels(channels, pictures, linear, |a| f32::from(a) / 65535.0)
-    }
-
-    fn of_floats<const P: usize>(&self, channels: u32, pictures: [&Vec<f32>; P]) -> [Vec<f16>; P] {
-        self.by_channels(channels, pictures, |v| v, |a| a)
-    }
-
-    fn by_channels<T: Copy, const P: usize>(
+    fn by_channels<T: Copy>(
         &self,
         channels: u32,
-        pictures: [&Vec<T>; P],
+        samples: &[T],
         linear: impl Fn(T) -> f32,
         alpha: impl Fn(T) -> f32,
-    ) -> [Vec<f16>; P] {
+    ) -> Vec<f16> {
         match channels {
-            1 => self.gather::<T, 1, P>(pictures, |&[y]| {
+            1 => self.gather::<T, 1>(samples, |&[y]| {
                 let y = linear(y);
                 [y, y, y, 1.0]
             }),
-            2 => self.gather::<T, 2, P>(pictures, |&[y, a]| {
+            2 => self.gather::<T, 2>(samples, |&[y, a]| {
                 let (y, a) = (linear(y), alpha(a));
                 [y * a, y * a, y * a, a]
             }),
-            3 => self.gather::<T, 3, P>(pictures, |&[r, g, b]| [linear(r), linear(g), linear(b), 1.0]),
-            _ => self.gather::<T, 4, P>(pictures, |&[r, g, b, a]| {
+            3 => self.gather::<T, 3>(samples, |&[r, g, b]| [linear(r), linear(g), linear(b), 1.0]),
+            _ => self.gather::<T, 4>(samples, |&[r, g, b, a]| {
                 let a = alpha(a);
                 [linear(r) * a, linear(g) * a, linear(b) * a, a]
             }),
@@ -165,70 +141,61 @@ impl Footprints {
     }
 
     /// Weighted sums of `pixel`, which gives premultiplied colour and coverage.
-    fn gather<T: Copy, const C: usize, const P: usize>(
+    fn gather<T: Copy, const C: usize>(
         &self,
-        pictures: [&Vec<T>; P],
+        samples: &[T],
         pixel: impl Fn(&[T; C]) -> [f32; 4],
-    ) -> [Vec<f16>; P] {
-        let pictures = pictures.map(|samples| samples.as_chunks::<C>().0);
-        let mut texels = [(); P].map(|()| vec![f16::ZERO; 3 * self.texels.len()]);
-        let mut colours = [(); P].map(|()| Vec::with_capacity(3 * AT_ONCE));
+    ) -> Vec<f16> {
+        let (pixels, _) = samples.as_chunks::<C>();
+        let mut halves = vec![f16::ZERO; 3 * self.texels.len()];
+        let mut colours = Vec::with_capacity(3 * AT_ONCE);
         let mut start = 0;
-        for (chunk, ends) in self.ends.chunks(AT_ONCE).enumerate() {
-            colours.iter_mut().for_each(Vec::clear);
+        for (ends, halves) in self.ends.chunks(AT_ONCE).zip(halves.chunks_mut(3 * AT_ONCE)) {
+            colours.clear();
             for &end in ends {
                 let runs = &self.runs[start as usize..end as usize];
-                for (colours, mean) in colours.iter_mut().zip(self.means(runs, pictures, &pixel)) {
-                    colours.extend(mean);
-                }
+                colours.extend(self.mean(runs, pixels, &pixel));
                 start = end;
             }
-            for (texels, colours) in texels.iter_mut().zip(&mut colours) {
-                // Apart from the sums, where it would keep them from the registers.
-                for value in colours.iter_mut() {
-                    *value = value.clamp(0.0, MOST_LIGHT);
-                }
-                texels[3 * AT_ONCE * chunk..][..colours.len()].convert_from_f32_slice(colours);
+            // Apart from the sums, where it would keep them from the registers.
+            for value in &mut colours {
+                *value = value.clamp(0.0, MOST_LIGHT);
             }
+            halves.convert_from_f32_slice(&colours);
         }
-        texels
+        halves
     }
 
-    /// The mean colour of some pixels in each picture; NaN where too little of them is covered.
+    /// The mean colour of some pixels; NaN where too little of them is covered.
     #[inline]
-    fn means<T: Copy, const C: usize, const P: usize>(
+    fn mean<T: Copy, const C: usize>(
         &self,
         runs: &[Run],
-        pictures: [&[[T; C]]; P],
+        pixels: &[[T; C]],
         pixel: impl Fn(&[T; C]) -> [f32; 4],
-    ) -> [[f32; 3]; P] {
-        let mut sums = [[0.0f32; 4]; P];
+    ) -> [f32; 3] {
+        let [mut r, mut g, mut b, mut a] = [0.0f32; 4];
         for run in runs {
-            let length = run.length as usize;
-            let parts = pictures.map(|pixels| &pixels[run.pixel as usize..][..length]);
-            let weights = &self.weights[run.weight as usize..][..length];
-            for (k, &weight) in weights.iter().enumerate() {
-                for (sum, part) in sums.iter_mut().zip(parts) {
-                    let value = pixel(&part[k]);
-                    sum[0] += weight * value[0];
-                    sum[1] += weight * value[1];
-                    sum[2] += weight * value[2];
-                    if C.is_multiple_of(2) {
-                        sum[3] += weight * value[3];
-                    }
+            let part = &pixels[run.pixel as usize..][..run.length as usize];
+            let weights = &self.weights[run.weight as usize..][..run.length as usize];
+            for (value, &weight) in part.iter().zip(weights) {
+                let value = pixel(value);
+                r += weight * value[0];
+                g += weight * value[1];
+                b += weight * value[2];
+                if C.is_multiple_of(2) {
+                    a += weight * value[3];
                 }
             }
         }
-        sums.map(|[r, g, b, a]| {
-            if !C.is_multiple_of(2) {
-                // The weights sum to 1.
-                [r, g, b]
-            } else if f64::from(a) < LEAST_SEEN {
-                [f32::NAN; 3]
-            } else {
-                [r / a, g / a, b / a]
-            }
-        })
+        if !C.is_multiple_of(2) {
+            // The weights sum to 1.
+            [r, g, b]
+        } else if f64::from(a) < LEAST_SEEN {
+            [f32::NAN; 3]
+        } else {
+            [r / a, g / a, b / a]
+        }
     }
 }
 
@@ -420,7 +387,7 @@ mod tests {
     #[test]
     fn pixels_on_the_tables_grid_come_through_untouched() {
         let footprints = Footprints::new(&ball(32.0), Frame::Half, 32, 32, 32, false);
-        let texels = footprints.resample(&[picture(32, |x, y| (x * 40 + y) as f32)]).remove(0);
+        let texels = footprints.resample(&picture(32, |x, y| (x * 40 + y) as f32));
         assert!(footprints.texels.len() > 600);
         for (k, texel) in footprints.texels.iter().enumerate() {
             let expected = (texel.i * 40 + 31 - texel.j) as f32;
@@ -433,9 +400,8 @@ mod tests {
         for (side, pixels) in [(16, 64), (16, 50), (64, 40), (33, 77)] {
             let footprints =
                 Footprints::new(&ball(f64::from(pixels)), Frame::Half, side, pixels, pixels, true);
-            let texels = footprints
-                .resample(&[picture(pixels, |x, y| x as f32 + 0.5 + 3.0 * (y as f32 + 0.5))])
-                .remove(0);
+            let texels =
+                footprints.resample(&picture(pixels, |x, y| x as f32 + 0.5 + 3.0 * (y as f32 + 0.5)));
             for (k, texel) in footprints.texels.iter().enumerate() {
                 if texel.n.z < 0.5 {
                     continue;
