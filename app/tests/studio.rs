@@ -99,6 +99,14 @@ fn a_panel_is_picked_turned_undone_saved_and_opened_again() {
     assert_eq!(again.state().document().project(), &saved);
     assert_eq!(degrees(&again, panel), Some(turned));
     picture(&mut again);
+    drop(again);
+
+    // The project is offered among the recent ones.
+    let mut third = window(Studio::new(), folder.path());
+    assert_eq!(degrees(&third, panel), before);
+    click(&mut third, "File");
+    click(&mut third, "mine.amcproj");
+    assert_eq!(degrees(&third, panel), Some(turned));
 }
 
 #[test]
@@ -135,6 +143,45 @@ fn unsaved_work_of_a_window_that_died_is_offered_back() {
     click(&mut again, "Take it back");
     assert_eq!(degrees(&again, "back"), turned);
     assert!(again.state().document().is_changed());
+}
+
+/// A plugin that keeps a number with the settings, one more each time.
+struct Counting(std::sync::Arc<std::sync::atomic::AtomicU64>);
+
+impl Plugin for Counting {
+    fn id(&self) -> &'static str {
+        "counting"
+    }
+
+    fn name(&self) -> &'static str {
+        "Counting"
+    }
+
+    fn settings(&self) -> Option<serde_json::Value> {
+        Some((self.0.load(std::sync::atomic::Ordering::Relaxed) + 1).into())
+    }
+
+    fn restore(&mut self, settings: serde_json::Value) -> amc_core::Result<()> {
+        let number = settings.as_u64().ok_or_else(|| amc_core::Error::invalid("no number"))?;
+        self.0.store(number, std::sync::atomic::Ordering::Relaxed);
+        Ok(())
+    }
+}
+
+#[test]
+fn plugins_get_back_what_they_keep() {
+    let folder = tempfile::tempdir().unwrap();
+    for expected in 0..3 {
+        let number = std::sync::Arc::<std::sync::atomic::AtomicU64>::default();
+        let mut harness = window(Studio::new().with_plugin(Counting(number.clone())), folder.path());
+        assert_eq!(number.load(std::sync::atomic::Ordering::Relaxed), expected);
+        eframe::App::on_exit(harness.state_mut());
+    }
+    let file = folder.path().join("kept/studio.json");
+    amc_core::file::save_bytes(&file, b"{").unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    click(&mut harness, "Log");
+    assert!(reads(&harness, &["studio.json", "kept as"]));
 }
 
 /// A plugin that fails when its pane is drawn.

@@ -17,7 +17,7 @@ use super::palette::Palette;
 use super::questions::{self, OfMissing, OfRecovery};
 use super::stager::Stager;
 use super::theme::{self, STEP, Tokens};
-use super::{texts, toasts};
+use super::{settings, texts, toasts};
 use crate::storage::Folders;
 use crate::viewport::{Viewport, ViewportInput};
 
@@ -63,12 +63,16 @@ impl App {
         let context = creation.egui_ctx.clone();
         let render_state = creation.wgpu_render_state.as_ref();
         let mut notices = Notices::default();
+        let mut registry = registry;
+        let desk = Desk::new(folders, &mut notices);
+        let layout =
+            desk.settings_folder().and_then(|folder| settings::restore(folder, &mut registry, &mut notices));
         let mut app = Self {
-            desk: Desk::new(folders, &mut notices),
+            desk,
             selection: Selection::default(),
             jobs: Jobs::new(move || context.request_repaint()),
             notices,
-            layout: dock::initial(&registry),
+            layout: layout.unwrap_or_else(|| dock::initial(&registry)),
             registry,
             stager: Stager::default(),
             gpu: render_state.map(|state| Gpu { device: state.device.clone(), queue: state.queue.clone() }),
@@ -197,6 +201,11 @@ impl App {
     fn run(&mut self, wanted: Wanted, ui: &egui::Ui) {
         match wanted {
             Wanted::Own(action) => self.act(action, ui),
+            Wanted::Recent(index) => {
+                if let Some(path) = self.desk.recent.get(index).cloned() {
+                    self.open(&path);
+                }
+            }
             Wanted::Pane { plugin, pane } => {
                 let pane = Pane::Plugin { plugin: plugin.to_owned(), pane: pane.to_owned() };
                 dock::bring_forward(&mut self.layout, &pane);
@@ -249,7 +258,7 @@ impl App {
             Wanted::Own(Action::Undo) => self.desk.document.undo_name().is_some(),
             Wanted::Own(Action::Redo) => self.desk.document.redo_name().is_some(),
             Wanted::Own(Action::SelectNone) => !self.selection.panels.is_empty(),
-            Wanted::Own(_) | Wanted::Plugin { .. } | Wanted::Pane { .. } => true,
+            Wanted::Own(_) | Wanted::Plugin { .. } | Wanted::Pane { .. } | Wanted::Recent(_) => true,
         }
     }
 
@@ -464,6 +473,7 @@ impl eframe::App for App {
             can_run: &|wanted| self.can_run(wanted),
             undo: self.desk.document.undo_name(),
             redo: self.desk.document.redo_name(),
+            recent: &self.desk.recent,
             title: &title,
             changed: self.desk.document.is_changed(),
         };
@@ -483,6 +493,12 @@ impl eframe::App for App {
     }
 
     fn on_exit(&mut self) {
+        if let Some(folder) = self.desk.settings_folder().map(Path::to_owned)
+            && let Err(error) = settings::keep(&folder, &mut self.registry, &self.layout, &mut self.notices)
+        {
+            // Nobody is left to be told in the window.
+            log::error!("{error}");
+        }
         self.desk.finish();
     }
 }

@@ -117,12 +117,20 @@ pub(super) const OWN: [Own; 14] = [
     ),
 ];
 
-/// A command of the studio or of a plugin, or a pane to be brought forward.
+/// A command of the studio or of a plugin, a pane to be brought forward, or a project to be opened again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Wanted {
     Own(Action),
-    Plugin { plugin: &'static str, command: &'static str },
-    Pane { plugin: &'static str, pane: &'static str },
+    Plugin {
+        plugin: &'static str,
+        command: &'static str,
+    },
+    Pane {
+        plugin: &'static str,
+        pane: &'static str,
+    },
+    /// One of the projects opened or saved lately.
+    Recent(usize),
 }
 
 /// Every command there is: the studio's, then the plugins', each with whose it is.

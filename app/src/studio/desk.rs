@@ -30,8 +30,6 @@ pub(super) struct Desk {
     unknown: Arc<Unknown>,
     lock: Option<ProjectLock>,
     autosave: Option<Autosave>,
-    /// The revision that the autosave knows of.
-    watched: u64,
     opening: Option<(PathBuf, Job<Opened>)>,
     saving: Option<(PathBuf, Snapshot, Job<()>)>,
 }
@@ -51,7 +49,6 @@ impl Desk {
             unknown: Arc::default(),
             lock: None,
             autosave: None,
-            watched: 0,
             opening: None,
             saving: None,
         };
@@ -77,6 +74,11 @@ impl Desk {
         let recent = recent::list(self.disk.as_ref(), &folders.settings);
         recent.notice.iter().for_each(|notice| notices.note(notice));
         self.recent = recent.value;
+    }
+
+    /// Where settings are kept; none: nowhere.
+    pub(super) fn settings_folder(&self) -> Option<&Path> {
+        self.folders.as_ref().map(|folders| folders.settings.as_path())
     }
 
     /// Whether a project is being opened or saved.
@@ -117,7 +119,6 @@ impl Desk {
         self.replace(document, file.clone(), work.read.unknown.clone());
         if let Some(autosave) = &self.autosave {
             autosave.adopt(work, file.as_deref());
-            self.watched = self.document.revision();
         }
         notices.done("the unsaved work is back; save it to keep it");
     }
@@ -168,16 +169,15 @@ impl Desk {
                     self.document.mark_snapshot_saved(&snapshot);
                     notices.done(format!("saved: {}", path.display()));
                     self.belongs_to(Some(path), notices);
-                    self.tell_autosave();
                 }
                 Err(error) => notices.failed(error),
             }
         }
-        if self.document.revision() != self.watched {
-            self.tell_autosave();
-        }
-        if let Some(trouble) = self.autosave.as_ref().and_then(Autosave::trouble) {
-            notices.failed(trouble);
+        if let Some(autosave) = &mut self.autosave {
+            autosave.follow(&self.document, &self.unknown, self.file.as_deref());
+            if let Some(trouble) = autosave.trouble() {
+                notices.failed(trouble);
+            }
         }
     }
 
@@ -206,7 +206,6 @@ impl Desk {
         self.unknown = Arc::new(unknown);
         self.lock = None;
         self.missing.clear();
-        self.tell_autosave();
     }
 
     /// Claims the project's file, and remembers it.
@@ -228,16 +227,6 @@ impl Desk {
             notices.failed(error);
         }
         self.recent = recent::list(self.disk.as_ref(), &folders.settings).value;
-    }
-
-    fn tell_autosave(&mut self) {
-        self.watched = self.document.revision();
-        let Some(autosave) = &self.autosave else { return };
-        if self.document.is_changed() {
-            autosave.keep(self.document.snapshot().project, Arc::clone(&self.unknown), self.file.as_deref());
-        } else {
-            autosave.forget();
-        }
     }
 }
 

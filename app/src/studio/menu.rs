@@ -1,5 +1,7 @@
 //! The menu bar, and the bar below the window.
 
+use std::path::PathBuf;
+
 use eframe::egui;
 use studio_plugin::Command;
 
@@ -14,6 +16,8 @@ pub(super) struct Menu<'a> {
     /// What undo would take back, and redo do again.
     pub(super) undo: Option<&'a str>,
     pub(super) redo: Option<&'a str>,
+    /// Projects opened or saved lately.
+    pub(super) recent: &'a [PathBuf],
     /// The project's name.
     pub(super) title: &'a str,
     pub(super) changed: bool,
@@ -45,6 +49,9 @@ impl Menu<'_> {
                             ui.close();
                         }
                     }
+                    if name == texts::FILE_MENU {
+                        chosen = chosen.or(self.recently_used(ui));
+                    }
                 });
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -54,6 +61,21 @@ impl Menu<'_> {
                 );
             });
         });
+        chosen
+    }
+
+    fn recently_used(&self, ui: &mut egui::Ui) -> Option<Wanted> {
+        let mut chosen = None;
+        if !self.recent.is_empty() {
+            ui.separator();
+        }
+        for (index, path) in self.recent.iter().enumerate() {
+            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+            if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
+                chosen = Some(Wanted::Recent(index));
+                ui.close();
+            }
+        }
         chosen
     }
 

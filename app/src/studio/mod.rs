@@ -9,6 +9,7 @@ mod menu;
 mod palette;
 mod panes;
 mod questions;
+mod settings;
 mod stager;
 mod texts;
 mod theme;

@@ -28,8 +28,6 @@ pub struct Notice {
 #[derive(Debug, Default)]
 pub struct Notices {
     all: Vec<Notice>,
-    /// How many were told, dropped ones counted.
-    told: u64,
 }
 
 impl Notices {
@@ -56,11 +54,6 @@ impl Notices {
         &self.all
     }
 
-    /// How many have been told so far.
-    pub fn told(&self) -> u64 {
-        self.told
-    }
-
     fn tell(&mut self, kind: NoticeKind, text: String) {
         match kind {
             NoticeKind::Failed => log::error!("{text}"),
@@ -70,7 +63,6 @@ impl Notices {
             self.all.remove(0);
         }
         self.all.push(Notice { kind, text, at: SystemTime::now() });
-        self.told += 1;
     }
 }
 
@@ -86,6 +78,5 @@ mod tests {
         }
         assert_eq!(notices.all().len(), Notices::LIMIT);
         assert_eq!(notices.all()[0].text, "5");
-        assert_eq!(notices.told(), Notices::LIMIT as u64 + 5);
     }
 }

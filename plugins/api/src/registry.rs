@@ -2,7 +2,10 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use crate::{Context, Plugin};
+use amc_core::Result;
+use serde_json::Value;
+
+use crate::{Context, Notices, Plugin};
 
 /// A registered plugin.
 pub struct Registered {
@@ -34,19 +37,47 @@ impl Registered {
         studio: &mut Context<'_>,
         call: impl FnOnce(&mut dyn Plugin, &mut Context<'_>) -> T,
     ) -> Option<T> {
+        let outcome = self.guarded(|plugin| call(plugin, studio))?;
+        if outcome.is_none() {
+            self.tell_off(studio.notices);
+        }
+        outcome
+    }
+
+    /// Gives it back what it kept; none where it is off or fails.
+    pub fn restore(&mut self, settings: Value, notices: &mut Notices) -> Option<Result<()>> {
+        let outcome = self.guarded(|plugin| plugin.restore(settings))?;
+        if outcome.is_none() {
+            self.tell_off(notices);
+        }
+        outcome
+    }
+
+    /// What it wants kept; none where it is off or fails.
+    pub fn settings(&mut self, notices: &mut Notices) -> Option<Option<Value>> {
+        let outcome = self.guarded(|plugin| plugin.settings())?;
+        if outcome.is_none() {
+            self.tell_off(notices);
+        }
+        outcome
+    }
+
+    /// What the call gives; nothing in it where it panicked, and nothing at all where the plugin is off.
+    fn guarded<T>(&mut self, call: impl FnOnce(&mut dyn Plugin) -> T) -> Option<Option<T>> {
         if self.off {
             return None;
         }
         // What a panic leaves half done inside the plugin is never looked at again.
-        let outcome = catch_unwind(AssertUnwindSafe(|| call(self.plugin.as_mut(), studio)));
-        if outcome.is_err() {
-            self.off = true;
-            let name = self.plugin.name();
-            studio.notices.failed(format!(
-                "the plugin '{name}' failed and is switched off until the studio is started again; your work is not touched"
-            ));
-        }
-        outcome.ok()
+        let outcome = catch_unwind(AssertUnwindSafe(|| call(self.plugin.as_mut())));
+        self.off = outcome.is_err();
+        Some(outcome.ok())
+    }
+
+    fn tell_off(&self, notices: &mut Notices) {
+        let name = self.plugin.name();
+        notices.failed(format!(
+            "the plugin '{name}' failed and is switched off until the studio is started again; your work is not touched"
+        ));
     }
 }
 
