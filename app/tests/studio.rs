@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use amc_studio::studio::{App, Studio};
 use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use studio_plugin::{Context, Pane, Place, Plugin};
 
 /// How long loading may take before the test counts as hung.
@@ -143,6 +143,21 @@ fn unsaved_work_of_a_window_that_died_is_offered_back() {
     click(&mut again, "Take it back");
     assert_eq!(degrees(&again, "back"), turned);
     assert!(again.state().document().is_changed());
+}
+
+#[test]
+fn a_command_that_cannot_be_run_is_greyed_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    let greyed = |harness: &Harness<'_, App>| {
+        harness.get_by_label_contains("Hide selected panels").accesskit_node().is_disabled()
+    };
+    // The menu stands left of the tab of the same name.
+    harness.get_all_by_label("Panels").next().unwrap().click();
+    settle(&mut harness);
+    assert!(greyed(&harness));
+    press(&mut harness, Modifiers::COMMAND, Key::A);
+    assert!(!greyed(&harness));
 }
 
 /// A plugin that keeps a number with the settings, one more each time.

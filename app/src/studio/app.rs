@@ -262,6 +262,19 @@ impl App {
         }
     }
 
+    /// The plugins' commands that cannot be run now.
+    fn blocked(&mut self, all: &[(&'static str, studio_plugin::Command, Wanted)]) -> Vec<Wanted> {
+        self.with_context(|registry, studio| {
+            let mut is_blocked = |wanted: &Wanted| {
+                let Wanted::Plugin { plugin, command } = *wanted else { return false };
+                let plugin = registry.get_mut(plugin);
+                plugin.and_then(|it| it.call(studio, |plugin, studio| plugin.can_run(command, studio)))
+                    == Some(false)
+            };
+            all.iter().map(|(.., wanted)| *wanted).filter(|wanted| is_blocked(wanted)).collect()
+        })
+    }
+
     /// The command whose shortcut was pressed, unless somebody types a text.
     fn pressed(
         &self,
@@ -467,10 +480,11 @@ impl eframe::App for App {
         }
         let all = commands::all(&self.registry);
         let mut wanted = self.pressed(ui, &all);
+        let blocked = self.blocked(&all);
         let title = self.title();
         let menu = Menu {
             commands: &all,
-            can_run: &|wanted| self.can_run(wanted),
+            can_run: &|wanted| self.can_run(wanted) && !blocked.contains(&wanted),
             undo: self.desk.document.undo_name(),
             redo: self.desk.document.redo_name(),
             recent: &self.desk.recent,
