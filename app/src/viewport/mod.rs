@@ -75,7 +75,13 @@ impl Viewport {
     }
 
     /// Shows `drawing` from now on; `picker` is made of the same panels, and may be an older one if only fabrics changed.
+    /// What is shown already costs nothing.
     pub fn set_scene(&mut self, drawing: Arc<Drawing>, picker: Arc<Picker>) {
+        let shows = |garment: &Garment| Arc::ptr_eq(&garment.drawing, &drawing);
+        let picks = |shape: &Shape| Arc::ptr_eq(&shape.picker, &picker);
+        if self.garment.as_ref().is_some_and(shows) && self.shape.as_ref().is_some_and(picks) {
+            return;
+        }
         self.shape = Some(Shape::new(&drawing, picker));
         self.garment = Some(Garment::new(drawing, self.next_revision()));
     }
@@ -87,6 +93,10 @@ impl Viewport {
 
     /// What a split view shows right of its divider: other fabrics or directions of the same garment. None: the same.
     pub fn set_compared(&mut self, drawing: Option<Arc<Drawing>>) {
+        let shown = self.compared.as_ref().map(|garment| Arc::as_ptr(&garment.drawing));
+        if shown == drawing.as_ref().map(Arc::as_ptr) {
+            return;
+        }
         let revision = self.next_revision();
         self.compared = drawing.map(|drawing| Garment::new(drawing, revision));
     }
