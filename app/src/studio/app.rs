@@ -333,11 +333,12 @@ impl App {
             ui.centered_and_justified(|ui| ui.label(texts::NO_GPU));
             return;
         };
-        let Some((drawing, picker)) = &self.stager.drawn else {
+        let Some((drawing, picker)) = &self.stager.drawn.latest else {
             ui.centered_and_justified(|ui| ui.weak(texts::LOADING));
             return;
         };
         viewport.set_scene(drawing.clone(), picker.clone());
+        viewport.set_compared(self.stager.compared.latest.as_ref().map(|(drawing, _)| drawing.clone()));
         let Some(garment) = &self.stager.stage.garment else { return };
         let project = self.desk.document.project();
         let number = |id: &String| garment.panels.iter().position(|panel| panel.id == *id);
@@ -349,7 +350,7 @@ impl App {
             selected: &selected,
             hovered: self.selection.hovered.as_ref().and_then(number),
             hidden: &hidden,
-            compared: None,
+            compared: project.view.compared_shading(),
             tool: false,
             backdrop: tokens.gap,
             selected_color: tokens.accent,

@@ -19,14 +19,23 @@ use crate::scene::{load_fabric, load_garment, vertex_occlusion};
 #[derive(Debug, Default)]
 pub(super) struct Stager {
     pub(super) stage: Stage,
-    /// What is drawn, and to pick panels in it.
-    pub(super) drawn: Option<(Arc<Drawing>, Arc<Picker>)>,
+    /// What is drawn.
+    pub(super) drawn: Drawn,
+    /// What is drawn right of the divider of a split view, where that is not the same.
+    pub(super) compared: Drawn,
     garment: Loading<Asset, Loaded>,
     fabrics: BTreeMap<FabricId, Loading<Asset, Arc<Amc>>>,
     loaded: Option<Loaded>,
-    drawing: Option<Job<Drawing>>,
-    /// What the drawing was last made of.
-    drawn_of: Option<Recipe>,
+}
+
+/// A drawing, made anew when its recipe changes.
+#[derive(Debug, Default)]
+pub(super) struct Drawn {
+    /// The drawing, and to pick panels in it.
+    pub(super) latest: Option<(Arc<Drawing>, Arc<Picker>)>,
+    job: Option<Job<Drawing>>,
+    /// What it was last made of, or is being made of.
+    of: Option<Recipe>,
 }
 
 /// Something that is loaded once, until it is to be something else.
@@ -71,13 +80,14 @@ impl Stager {
     pub(super) fn update(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
         self.update_garment(project, jobs, notices);
         self.update_fabrics(project, jobs, notices);
-        self.update_drawing(project, jobs, notices);
+        self.update_drawings(project, jobs, notices);
     }
 
     /// Whether something is still to come.
     pub(super) fn is_busy(&self) -> bool {
         self.garment.job.is_some()
-            || self.drawing.is_some()
+            || self.drawn.job.is_some()
+            || self.compared.job.is_some()
             || self.fabrics.values().any(|it| it.job.is_some())
     }
 
@@ -130,30 +140,46 @@ impl Stager {
         }
     }
 
-    fn update_drawing(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
-        if let Some(result) = self.drawing.as_ref().and_then(Job::poll) {
-            self.drawing = None;
-            match (result, &self.drawn_of) {
+    fn update_drawings(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
+        let recipe = self.loaded.as_ref().map(|loaded| Recipe {
+            loaded: loaded.clone(),
+            looks: looks(project, &loaded.garment, &self.stage.fabrics),
+            fabrics: self.stage.fabrics.clone(),
+        });
+        let compared = project.view.compared.as_ref().filter(|compared| compared.changes_panels());
+        let other = compared.zip(recipe.as_ref()).map(|(compared, recipe)| Recipe {
+            looks: recipe
+                .looks
+                .iter()
+                .map(|look| compared.look(*look, |id| recipe.fabrics.contains_key(&id)))
+                .collect(),
+            ..recipe.clone()
+        });
+        self.drawn.update(recipe, jobs, notices);
+        self.compared.update(other, jobs, notices);
+    }
+}
+
+impl Drawn {
+    fn update(&mut self, recipe: Option<Recipe>, jobs: &mut Jobs, notices: &mut Notices) {
+        if let Some(result) = self.job.as_ref().and_then(Job::poll) {
+            self.job = None;
+            match (result, &self.of) {
                 (Ok(drawing), Some(recipe)) => {
-                    self.drawn = Some((Arc::new(drawing), Arc::clone(&recipe.loaded.picker)));
+                    self.latest = Some((Arc::new(drawing), Arc::clone(&recipe.loaded.picker)));
                 }
                 (Ok(_), None) => {}
                 (Err(error), _) => notices.failed(error),
             }
         }
-        let Some(loaded) = &self.loaded else { return };
-        // One at a time: what has changed meanwhile is drawn next.
-        if self.drawing.is_some() {
+        let Some(recipe) = recipe else {
+            *self = Self::default();
             return;
-        }
-        let recipe = Recipe {
-            loaded: loaded.clone(),
-            looks: looks(project, &loaded.garment, &self.stage.fabrics),
-            fabrics: self.stage.fabrics.clone(),
         };
-        if self.drawn_of.as_ref() != Some(&recipe) {
-            self.drawn_of = Some(recipe.clone());
-            self.drawing = Some(jobs.start("Directions", move |_| recipe.drawing()));
+        // One at a time: what has changed meanwhile is drawn next.
+        if self.job.is_none() && self.of.as_ref() != Some(&recipe) {
+            self.of = Some(recipe.clone());
+            self.job = Some(jobs.start("Directions", move |_| recipe.drawing()));
         }
     }
 }

@@ -2,10 +2,11 @@
 
 use amc_core::render::{Cyclic, Perspective};
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
-use studio_plugin::document::{Lens, NamedView, TurningStyle, ViewSettings};
+use studio_plugin::document::{Comparison, Lens, NamedView, TurningStyle, ViewSettings};
 use studio_plugin::{Command, Context, Pane, Place, Plugin};
 
 use crate::studio::texts;
+use crate::studio::theme::STEP;
 
 pub(super) struct Look;
 
@@ -31,6 +32,21 @@ const AUTO_TURN: Command = Command {
     tooltip: "The garment turns until this is chosen again",
     shortcut: Some(KeyboardShortcut::new(Modifiers::NONE, Key::T)),
 };
+const COMPARE: Command = Command {
+    id: "compare",
+    name: "Split view",
+    tooltip: "Shows another look of the same garment right of a divider; chosen again, the view is whole",
+    shortcut: Some(KeyboardShortcut::new(Modifiers::NONE, Key::C)),
+};
+
+/// The shading modes: ids and names.
+const MODES: [(&str, &str); 5] = [
+    ("amc", "Cloth"),
+    ("isotropic", "Without direction"),
+    ("normals", "Normals"),
+    ("tangents", "Directions"),
+    ("uv", "Flat pattern"),
+];
 
 /// Degrees per second of a garment that turns by itself.
 const TURNING_SPEED: f32 = 30.0;
@@ -54,7 +70,7 @@ impl Plugin for Look {
             tooltip: "Turns the garment; the camera and the light stay",
             shortcut: Some(KeyboardShortcut::new(Modifiers::NONE, key)),
         });
-        named.chain([FIT, AUTO_TURN]).collect()
+        named.chain([FIT, AUTO_TURN, COMPARE]).collect()
     }
 
     fn run(&mut self, command: &str, studio: &mut Context<'_>) {
@@ -63,6 +79,8 @@ impl Plugin for Look {
             view.fit();
         } else if command == AUTO_TURN.id {
             view.auto_turn = if view.auto_turn.is_some() { None } else { Some(TURNING_SPEED) };
+        } else if command == COMPARE.id {
+            view.compared = if view.compared.is_some() { None } else { Some(first_comparison()) };
         } else if let Some(index) = NAMED.iter().position(|(id, ..)| *id == command) {
             view.look(NamedView::ALL[index]);
         }
@@ -87,6 +105,8 @@ impl Plugin for Look {
         if ui.checkbox(&mut turns, AUTO_TURN.name).on_hover_text(AUTO_TURN.tooltip).changed() {
             view.auto_turn = turns.then_some(TURNING_SPEED);
         }
+        ui.add_space(2.0 * STEP);
+        compare(ui, &mut view, studio);
         if view != *before {
             studio.set_view(view);
         }
@@ -135,14 +155,7 @@ fn lens(ui: &mut egui::Ui, view: &mut ViewSettings) {
 }
 
 fn shading(ui: &mut egui::Ui, view: &mut ViewSettings) {
-    let modes = [
-        ("amc", "Cloth"),
-        ("isotropic", "Without direction"),
-        ("normals", "Normals"),
-        ("tangents", "Directions"),
-        ("uv", "Flat pattern"),
-    ];
-    let modes = modes.map(|(id, name)| (id.to_owned(), name));
+    let modes = MODES.map(|(id, name)| (id.to_owned(), name));
     choice(ui, "Shading", &mut view.mode, &modes);
     choice(
         ui,
@@ -165,6 +178,34 @@ fn shading(ui: &mut egui::Ui, view: &mut ViewSettings) {
             (Perspective::Off, "Off"),
         ],
     );
+}
+
+/// What a split view begins with: warp and weft swapped, which is what anisotropy is about.
+fn first_comparison() -> Comparison {
+    Comparison { turned_deg: 90.0, ..Comparison::default() }
+}
+
+fn compare(ui: &mut egui::Ui, view: &mut ViewSettings, studio: &Context<'_>) {
+    let mut is_split = view.compared.is_some();
+    if ui.checkbox(&mut is_split, COMPARE.name).on_hover_text(COMPARE.tooltip).changed() {
+        view.compared = is_split.then(first_comparison);
+    }
+    let Some(compared) = &mut view.compared else { return };
+    egui::Grid::new("compare").num_columns(2).show(ui, |ui| {
+        let fabrics = studio.document.project().fabrics.iter();
+        let fabrics: Vec<_> = std::iter::once((None, "Each panel's own"))
+            .chain(fabrics.map(|fabric| (Some(fabric.id), fabric.name.as_str())))
+            .collect();
+        choice(ui, "Right: fabric", &mut compared.fabric, &fabrics);
+        let label = ui.label("Right: turned by");
+        let field = egui::DragValue::new(&mut compared.turned_deg).range(-360.0..=360.0).suffix("°");
+        ui.add(field).labelled_by(label.id).on_hover_text("All directions, counter-clockwise in the flat pattern");
+        ui.end_row();
+        let modes: Vec<_> = std::iter::once((None, "As on the left"))
+            .chain(MODES.into_iter().map(|(id, name)| (Some(id.to_owned()), name)))
+            .collect();
+        choice(ui, "Right: shading", &mut compared.mode, &modes);
+    });
 }
 
 /// A row with one of several to choose.

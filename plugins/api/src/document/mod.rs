@@ -4,6 +4,7 @@
 //! are checked first, so that every change can be undone and no project is ever half right.
 
 mod asset;
+mod comparison;
 mod edit;
 mod edit_name;
 mod history;
@@ -13,6 +14,7 @@ mod tests;
 mod view;
 
 pub use asset::{Asset, FabricId, FabricInUse};
+pub use comparison::Comparison;
 pub use edit::Edit;
 pub use history::{Document, Gesture, Snapshot};
 pub use project::{PanelChoice, PanelLook, Project};

@@ -6,6 +6,8 @@ use amc_core::{Error, Result};
 use glam::{DMat3, DQuat, EulerRot, Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
+use super::Comparison;
+
 /// Half of the height of the film that focal lengths refer to, 36 x 24 mm.
 const HALF_FRAME_MM: f64 = 12.0;
 
@@ -113,6 +115,8 @@ pub struct ViewSettings {
     pub turning: TurningStyle,
     /// Degrees per second about the object's vertical axis, right-handed; none: it stands still.
     pub auto_turn: Option<f32>,
+    /// The other half of a split view; none: the view is not split.
+    pub compared: Option<Comparison>,
 }
 
 impl Default for ViewSettings {
@@ -130,6 +134,7 @@ impl Default for ViewSettings {
             background: None,
             turning: TurningStyle::default(),
             auto_turn: None,
+            compared: None,
         }
     }
 }
@@ -206,6 +211,8 @@ impl ViewSettings {
         if let Lens::Perspective { focal_length_mm } = self.lens {
             within("focal length", focal_length_mm, Self::FOCAL_LENGTHS_MM)?;
         }
+        let turned = self.compared.as_ref().map_or(0.0, |compared| compared.turned_deg);
+        within("compared, turned_deg", turned, [-360.0, 360.0])?;
         within("auto turn", self.auto_turn.unwrap_or(0.0), [-Self::MOST_AUTO_TURN, Self::MOST_AUTO_TURN])
     }
 
@@ -249,7 +256,17 @@ impl ViewSettings {
 
     /// How the garment is shaded. A mode of a plugin's own is `amc` here.
     pub fn shading(&self) -> Shading {
-        let mode = match self.mode.as_str() {
+        self.shading_in(&self.mode)
+    }
+
+    /// How it is shaded right of the divider; none where the view is not split.
+    pub fn compared_shading(&self) -> Option<Shading> {
+        let compared = self.compared.as_ref()?;
+        Some(self.shading_in(compared.mode.as_ref().unwrap_or(&self.mode)))
+    }
+
+    fn shading_in(&self, mode: &str) -> Shading {
+        let mode = match mode {
             "isotropic" => Mode::Isotropic,
             "normals" => Mode::Normals,
             "tangents" => Mode::Tangents,

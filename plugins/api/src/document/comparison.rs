@@ -1,0 +1,59 @@
+//! The other half of a split view.
+
+use amc_core::direction::Direction;
+use serde::{Deserialize, Serialize};
+
+use super::FabricId;
+
+/// What is different right of the divider of a split view. The default is: nothing.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Comparison {
+    /// The id of the shading mode; none: that of the view.
+    pub mode: Option<String>,
+    /// What all panels with a fabric wear; none, or a fabric that is not in use: each its own.
+    pub fabric: Option<FabricId>,
+    /// How far all directions are turned, degrees, counter-clockwise in the flat pattern.
+    pub turned_deg: f32,
+}
+
+impl Comparison {
+    /// A panel's look in it. `worn` is the fabric and the direction left of the divider; `is_used` says whether a fabric
+    /// is there to be worn.
+    pub fn look(
+        &self,
+        worn: (Option<FabricId>, Direction),
+        is_used: impl FnOnce(FabricId) -> bool,
+    ) -> (Option<FabricId>, Direction) {
+        let (fabric, direction) = worn;
+        let other = self.fabric.filter(|&id| is_used(id));
+        let angle = direction.angle + self.turned_deg.to_radians();
+        (fabric.map(|own| other.unwrap_or(own)), Direction { angle, ..direction })
+    }
+
+    /// Whether panels look other than they do left of the divider, the shading mode aside.
+    pub fn changes_panels(&self) -> bool {
+        self.fabric.is_some() || self.turned_deg != 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fabrics_and_directions_are_exchanged_where_there_is_cloth() {
+        let [own, other, gone] = [0, 1, 2].map(FabricId::new);
+        let direction = Direction { angle: 0.25, ..Direction::default() };
+        let quarter = Comparison { turned_deg: 90.0, fabric: Some(other), ..Comparison::default() };
+        let (fabric, turned) = quarter.look((Some(own), direction), |id| id == other);
+        assert_eq!(fabric, Some(other));
+        assert!((turned.angle - direction.angle - std::f32::consts::FRAC_PI_2).abs() < 1e-6);
+        assert_eq!(turned.source, direction.source);
+        // Buttons stay buttons.
+        assert_eq!(quarter.look((None, direction), |_| true).0, None);
+        let lost = Comparison { fabric: Some(gone), ..Comparison::default() };
+        assert_eq!(lost.look((Some(own), direction), |id| id == other), (Some(own), direction));
+        assert!(!Comparison::default().changes_panels() && quarter.changes_panels());
+    }
+}
