@@ -6,7 +6,9 @@ mod garment;
 mod look;
 mod panel_option;
 
-pub(crate) use fabric::{Fabrics, load_fabric};
+pub(crate) use fabric::Fabrics;
+#[cfg(feature = "window")]
+pub(crate) use fabric::load_fabric;
 pub(crate) use garment::load_garment;
 pub(crate) use look::{PanelLook, directions, panel_looks};
 pub(crate) use panel_option::PanelOption;

@@ -1,7 +1,7 @@
 //! The application: what is open, and one frame of it.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use amc_core::render::gpu::Gpu;
 use eframe::egui::{self, Key, Modifiers, ViewportCommand};
@@ -10,15 +10,16 @@ use studio_plugin::{Context, Jobs, Notices, Registry, Request, Selection};
 
 use super::commands::{self, Action, Wanted};
 use super::desk::Desk;
+use super::device_loss::{Handover, Kept, Watch};
 use super::dock::{self, Layout, Pane};
 use super::files::{self, Dialog, Opened, Purpose};
 use super::menu::Menu;
+use super::milestones::Milestones;
 use super::palette::Palette;
 use super::questions::{self, OfMissing, OfRecovery};
 use super::stager::Stager;
 use super::theme::{self, STEP, Tokens};
-use super::{settings, texts, toasts};
-use crate::storage::Folders;
+use super::{Studio, settings, texts, toasts};
 use crate::viewport::{Viewport, ViewportInput};
 
 /// The studio's window.
@@ -41,6 +42,11 @@ pub struct App {
     /// The window is to close once the project is saved.
     leaving_saved: bool,
     context: egui::Context,
+    has_dialogs: bool,
+    milestones: Milestones,
+    device: Watch,
+    /// Where the work goes if the device is lost; none: there is no next window.
+    handover: Option<Handover>,
 }
 
 impl std::fmt::Debug for App {
@@ -53,26 +59,46 @@ impl std::fmt::Debug for App {
 }
 
 impl App {
-    pub(super) fn new(
-        registry: Registry,
-        files: Vec<PathBuf>,
-        folders: Option<Folders>,
-        creation: &eframe::CreationContext<'_>,
-    ) -> Self {
-        theme::apply(&creation.egui_ctx);
-        let context = creation.egui_ctx.clone();
-        let render_state = creation.wgpu_render_state.as_ref();
+    pub(super) fn new(studio: Studio, creation: &eframe::CreationContext<'_>) -> Self {
+        let Studio { plugins: mut registry, files, folders, has_dialogs, tell } = studio;
         let mut notices = Notices::default();
-        let mut registry = registry;
         let desk = Desk::new(folders, &mut notices);
         let layout =
             desk.settings_folder().and_then(|folder| settings::restore(folder, &mut registry, &mut notices));
-        let mut app = Self {
+        let layout = layout.unwrap_or_else(|| dock::initial(&registry));
+        let kept = Kept { desk, selection: Selection::default(), registry, layout, notices, has_dialogs };
+        let mut app = Self::with(kept, creation);
+        app.milestones = tell.map_or_else(Milestones::default, Milestones::new);
+        for file in files {
+            app.open(&file);
+        }
+        app
+    }
+
+    /// Goes on where a window was whose device is lost.
+    pub(super) fn resume(kept: Kept, creation: &eframe::CreationContext<'_>) -> Self {
+        let mut app = Self::with(kept, creation);
+        app.notices.note(texts::DEVICE_LOST);
+        app
+    }
+
+    /// Leaving the work there if the device is lost.
+    pub(super) fn leaving_to(mut self, handover: Handover) -> Self {
+        self.handover = Some(handover);
+        self
+    }
+
+    fn with(kept: Kept, creation: &eframe::CreationContext<'_>) -> Self {
+        theme::apply(&creation.egui_ctx);
+        let context = creation.egui_ctx.clone();
+        let render_state = creation.wgpu_render_state.as_ref();
+        let Kept { desk, selection, registry, layout, notices, has_dialogs } = kept;
+        Self {
             desk,
-            selection: Selection::default(),
+            selection,
             jobs: Jobs::new(move || context.request_repaint()),
             notices,
-            layout: layout.unwrap_or_else(|| dock::initial(&registry)),
+            layout,
             registry,
             stager: Stager::default(),
             gpu: render_state.map(|state| Gpu { device: state.device.clone(), queue: state.queue.clone() }),
@@ -83,11 +109,12 @@ impl App {
             discard: false,
             leaving_saved: false,
             context: creation.egui_ctx.clone(),
-        };
-        for file in files {
-            app.open(&file);
+            has_dialogs,
+            milestones: Milestones::default(),
+            device: render_state
+                .map_or_else(Watch::default, |state| Watch::over(&state.device, &creation.egui_ctx)),
+            handover: None,
         }
-        app
     }
 
     /// What the person works on.
@@ -150,13 +177,14 @@ impl App {
     fn ask(&mut self, purpose: Purpose) {
         if self.dialog.is_none() {
             let name = files::suggested_name(self.desk.document.project());
-            self.dialog = Some(Dialog::open(purpose, &name, &mut self.jobs));
+            let file = self.desk.file.as_deref();
+            self.dialog = Some(Dialog::open(purpose, (&name, file), self.has_dialogs, &mut self.jobs));
         }
     }
 
-    fn answered(&mut self) {
-        let Some(dialog) = &self.dialog else { return };
-        let Some(answer) = dialog.poll() else { return };
+    fn answered(&mut self, ui: &egui::Ui) {
+        let Some(dialog) = &mut self.dialog else { return };
+        let Some(answer) = dialog.poll(ui) else { return };
         let purpose = dialog.purpose.clone();
         self.dialog = None;
         match (answer, purpose) {
@@ -471,7 +499,13 @@ impl App {
 
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
-        self.answered();
+        if self.device.is_lost() && self.handover.is_some() {
+            // Nothing is drawn on what is lost.
+            ui.send_viewport_cmd(ViewportCommand::Close);
+            return;
+        }
+        self.milestones.begin_frame(ui);
+        self.answered(ui);
         self.drops(ui);
         self.with_context(|registry, studio| registry.each(studio, |plugin, studio| plugin.update(studio)));
         self.desk.update(&mut self.notices);
@@ -505,9 +539,15 @@ impl eframe::App for App {
         toasts::show(ui, &self.notices);
         self.question(ui);
         self.leave(ui);
+        let has_garment = self.viewport.as_ref().is_some_and(|viewport| viewport.scenes_drawn() > 0);
+        self.milestones.end_frame(ui, has_garment);
     }
 
     fn on_exit(&mut self) {
+        if self.device.is_lost() && self.handover.is_some() {
+            // The next window goes on.
+            return;
+        }
         if let Some(folder) = self.desk.settings_folder().map(Path::to_owned)
             && let Err(error) = settings::keep(&folder, &mut self.registry, &self.layout, &mut self.notices)
         {
@@ -515,5 +555,20 @@ impl eframe::App for App {
             log::error!("{error}");
         }
         self.desk.finish();
+    }
+}
+
+impl Drop for App {
+    fn drop(&mut self) {
+        let Some(handover) = self.handover.take().filter(|_| self.device.is_lost()) else { return };
+        let blank = Desk::new(None, &mut Notices::default());
+        handover.leave(Kept {
+            desk: std::mem::replace(&mut self.desk, blank),
+            selection: std::mem::take(&mut self.selection),
+            registry: std::mem::take(&mut self.registry),
+            layout: std::mem::replace(&mut self.layout, Layout::empty(egui::Id::unique("left"))),
+            notices: std::mem::take(&mut self.notices),
+            has_dialogs: self.has_dialogs,
+        });
     }
 }
