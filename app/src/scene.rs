@@ -39,7 +39,7 @@ pub(crate) fn drawing(
 ) -> Result<Drawing> {
     let tangents = direction::tangents(garment, &directions(looks))?;
     let occlusion = if with_occlusion { Some(vertex_occlusion(garment, progress)?) } else { None };
-    Drawing::new(garment, &tangents.vectors, occlusion.as_deref(), fabrics.into_tables(), |panel| {
+    Drawing::new(garment, tangents.vectors, occlusion.as_deref(), fabrics.into_tables(), |panel| {
         looks[panel].fabric.map_or(Cloth::Plain, Cloth::Fabric)
     })
 }

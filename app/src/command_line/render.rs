@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use amc_core::Error;
 use amc_core::image::{Picture, decode, encode};
 use amc_core::mesh::Unit;
 use amc_core::render::{Camera, Cyclic, Mode, Orientation, Perspective, Shading, View};
-use amc_core::Error;
 use clap::ValueEnum;
 
 use super::output::Output;

@@ -62,7 +62,10 @@ pub(crate) enum Ended {
 
 impl std::fmt::Debug for Studio {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Studio").field("plugins", &self.plugins).field("files", &self.files).finish_non_exhaustive()
+        f.debug_struct("Studio")
+            .field("plugins", &self.plugins)
+            .field("files", &self.files)
+            .finish_non_exhaustive()
     }
 }
 

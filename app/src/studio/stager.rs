@@ -9,7 +9,6 @@ use amc_core::direction::{self, Direction};
 use amc_core::mesh::{Garment, Picker, Unit};
 use amc_core::render::{Cloth, Drawing};
 use amc_core::{Progress, Result};
-use glam::Vec2;
 use studio_plugin::document::{Asset, FabricId, Project};
 use studio_plugin::{Job, Jobs, Notices, Stage};
 
@@ -55,7 +54,8 @@ impl<K, T> Default for Loading<K, T> {
 #[derive(Debug, Clone)]
 struct Loaded {
     garment: Arc<Garment>,
-    occlusion: Arc<Vec<Vec2>>,
+    /// All panels plain: what the drawings of it share.
+    plain: Arc<Drawing>,
     picker: Arc<Picker>,
 }
 
@@ -188,9 +188,10 @@ impl Loaded {
     fn new(asset: &Asset, progress: &Progress<'_>) -> Result<Self> {
         let garment = load_garment(&path(asset), Unit::Metre)?;
         let occlusion = vertex_occlusion(&garment, progress)?;
-        let plain = Drawing::new(&garment, &garment.normals, None, Vec::new(), |_| Cloth::Plain)?;
+        let tangents = garment.normals.clone();
+        let plain = Drawing::new(&garment, tangents, Some(&occlusion), Vec::new(), |_| Cloth::Plain)?;
         let picker = Picker::new(&plain)?;
-        Ok(Self { garment: Arc::new(garment), occlusion: Arc::new(occlusion), picker: Arc::new(picker) })
+        Ok(Self { garment: Arc::new(garment), plain: Arc::new(plain), picker: Arc::new(picker) })
     }
 }
 
@@ -204,7 +205,7 @@ impl Recipe {
             self.looks[panel].0.and_then(|id| numbers.get(&id)).map_or(Cloth::Plain, |&n| Cloth::Fabric(n))
         };
         let fabrics = self.fabrics.values().cloned().collect();
-        Drawing::new(garment, &tangents.vectors, Some(&self.loaded.occlusion), fabrics, cloth)
+        self.loaded.plain.dressed(tangents.vectors, fabrics, cloth)
     }
 }
 

@@ -32,7 +32,8 @@ pub(super) const FIND: &str = "Find ...";
 pub(super) const WITHOUT: &str = "Go on without them";
 pub(super) const PATH: &str = "Path";
 pub(super) const OPEN_TITLE: &str = "Open a file";
-pub(super) const OPEN_TEXT: &str = "A project (.amcproj), a garment (.glb, .gltf, .obj) or a fabric (.amc.ktx2):";
+pub(super) const OPEN_TEXT: &str =
+    "A project (.amcproj), a garment (.glb, .gltf, .obj) or a fabric (.amc.ktx2):";
 pub(super) const OPEN: &str = "Open";
 pub(super) const SAVE_TITLE: &str = "Save the project";
 pub(super) const SAVE_TEXT: &str = "As:";

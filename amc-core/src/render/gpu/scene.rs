@@ -48,7 +48,7 @@ pub struct Scene {
 }
 
 /// A fabric of a scene.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct SceneFabric {
     amc: Arc<Amc>,
     texture: FabricTexture,
@@ -105,6 +105,42 @@ impl Renderer {
             draws: merged(drawing.draws.iter()),
             fabrics,
         })
+    }
+
+    /// Uploads a drawing beside `scene`, which stays: what both hold is shared.
+    ///
+    /// # Errors
+    /// As [`Renderer::prepare`].
+    pub fn prepare_beside(&self, scene: &Scene, drawing: &Drawing) -> Result<Scene> {
+        if !scene.mesh.has_shape_of(drawing) {
+            return self.prepare(drawing);
+        }
+        let mesh = scene.mesh.with_own_tangents(&self.device, &self.queue)?;
+        let (panels, draws, fabrics) = (Vec::new(), Vec::new(), scene.fabrics.clone());
+        let mut beside = Scene { mesh, panels, draws, fabrics };
+        self.update(&mut beside, drawing)?;
+        Ok(beside)
+    }
+
+    /// Makes `scene` one of `drawing`; of what it shares with the drawing before nothing is uploaded again, and of
+    /// changed tangents only those that differ. All panels are shown. Gives the number of bytes uploaded for the mesh.
+    ///
+    /// # Errors
+    /// As [`Renderer::prepare`]; the scene is then as it was.
+    pub fn update(&self, scene: &mut Scene, drawing: &Drawing) -> Result<u64> {
+        if !scene.mesh.has_shape_of(drawing) {
+            *scene = self.prepare(drawing)?;
+            return Ok(scene.mesh.bytes());
+        }
+        drawing.check_tangents()?;
+        drawing.check_draws()?;
+        let known =
+            |amc: &Arc<Amc>| scene.fabrics.iter().find(|fabric| Arc::ptr_eq(&fabric.amc, amc)).cloned();
+        let fabric = |amc| known(amc).map_or_else(|| self.fabric(amc), Ok);
+        scene.fabrics = drawing.fabrics.iter().map(fabric).collect::<Result<_>>()?;
+        scene.panels.clone_from(&drawing.draws);
+        scene.draws = merged(drawing.draws.iter());
+        Ok(scene.mesh.set_tangents(&self.queue, &drawing.tangents))
     }
 
     /// A place for one view.
@@ -244,6 +280,7 @@ impl SceneDrawData {
         }
         pass.set_bind_group(0, &self.eye, &[]);
         pass.set_vertex_buffer(0, self.mesh.vertices.slice(..));
+        pass.set_vertex_buffer(1, self.mesh.tangents.slice(..));
         pass.set_index_buffer(self.mesh.corners.slice(..), wgpu::IndexFormat::Uint32);
         for draw in &self.draws {
             pass.set_pipeline(&draw.pipeline);

@@ -199,7 +199,9 @@ fn compare(ui: &mut egui::Ui, view: &mut ViewSettings, studio: &Context<'_>) {
         choice(ui, "Right: fabric", &mut compared.fabric, &fabrics);
         let label = ui.label("Right: turned by");
         let field = egui::DragValue::new(&mut compared.turned_deg).range(-360.0..=360.0).suffix("°");
-        ui.add(field).labelled_by(label.id).on_hover_text("All directions, counter-clockwise in the flat pattern");
+        ui.add(field)
+            .labelled_by(label.id)
+            .on_hover_text("All directions, counter-clockwise in the flat pattern");
         ui.end_row();
         let modes: Vec<_> = std::iter::once((None, "As on the left"))
             .chain(MODES.into_iter().map(|(id, name)| (Some(id.to_owned()), name)))
