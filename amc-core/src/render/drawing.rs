@@ -71,6 +71,17 @@ impl Drawing {
         Ok(drawing)
     }
 
+    /// The same with an occlusion for every vertex, as [`Drawing::new`] takes it.
+    ///
+    /// # Errors
+    /// Not one for every vertex.
+    pub fn with_occlusion(&self, occlusion: &[Vec2]) -> Result<Self> {
+        check_length("occlusion values", occlusion.len(), self.vertices.len())?;
+        let pairs = self.vertices.iter().zip(occlusion);
+        let vertices = pairs.map(|(vertex, &occlusion)| Vertex { occlusion, ..*vertex }).collect();
+        Ok(Self { vertices: Arc::new(vertices), ..self.clone() })
+    }
+
     /// Whether all that it refers to is there: what both renderers rely on.
     ///
     /// # Errors
@@ -170,6 +181,9 @@ mod tests {
         let mut long = garment();
         long.panels[0].triangles = 0..2;
         assert!(message(made(&long, &tangents, None, Cloth::Plain)).contains("0 to 2"));
+        let open = drawing.with_occlusion(&[Vec2::ONE; 3]).unwrap();
+        assert!(open.vertices[2] == Vertex { occlusion: Vec2::ONE, ..drawing.vertices[2] });
+        assert!(message(drawing.with_occlusion(&[Vec2::ONE])).contains("1 occlusion"));
         let other = drawing.dressed(vec![Vec3::Y; 3], Vec::new(), |_| Cloth::Plain).unwrap();
         assert!(Arc::ptr_eq(&other.vertices, &drawing.vertices) && *other.tangents == [Vec3::Y; 3]);
         let dressed =

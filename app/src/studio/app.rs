@@ -541,6 +541,11 @@ impl eframe::App for App {
         self.leave(ui);
         let has_garment = self.viewport.as_ref().is_some_and(|viewport| viewport.scenes_drawn() > 0);
         self.milestones.end_frame(ui, has_garment);
+        if self.device.is_lost_by_now() {
+            // egui's renderer panics where it cannot upload what is to be painted: nothing is.
+            ui.graphics_mut(|layers| drop(std::mem::take(layers)));
+            ui.request_repaint();
+        }
     }
 
     fn on_exit(&mut self) {
@@ -560,7 +565,7 @@ impl eframe::App for App {
 
 impl Drop for App {
     fn drop(&mut self) {
-        let Some(handover) = self.handover.take().filter(|_| self.device.is_lost()) else { return };
+        let Some(handover) = self.handover.take().filter(|_| self.device.is_lost_by_now()) else { return };
         let blank = Desk::new(None, &mut Notices::default());
         handover.leave(Kept {
             desk: std::mem::replace(&mut self.desk, blank),

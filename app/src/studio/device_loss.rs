@@ -1,7 +1,8 @@
 //! What goes on when the graphics device is lost: the window is opened anew on another, with the same document.
 //!
-//! eframe keeps its device for as long as its window, so the window goes with it. A frame painted on a lost device may
-//! panic in egui's renderer; what is kept is therefore handed over when the application is dropped, whichever way.
+//! eframe keeps its device for as long as its window, so the window goes with it: it paints nothing more, and closes. Should
+//! the device go between a frame's last look at it and its painting, egui's renderer panics; what is kept is therefore
+//! handed over when the application is dropped, whichever way.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -48,21 +49,24 @@ impl Handover {
 }
 
 /// Knows whether a device is lost.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Watch(Arc<AtomicBool>);
+#[derive(Debug, Default)]
+pub(super) struct Watch {
+    lost: Arc<AtomicBool>,
+    device: Option<wgpu::Device>,
+}
 
 impl Watch {
     /// Over `device`. When it is lost, `context` is woken; faults that nothing else catches are logged, where the default
     /// is to panic.
     pub(super) fn over(device: &wgpu::Device, context: &egui::Context) -> Self {
-        let watch = Self::default();
-        let (lost, context) = (Arc::clone(&watch.0), context.clone());
+        let watch = Self { lost: Arc::default(), device: Some(device.clone()) };
+        let (lost, context) = (Arc::clone(&watch.lost), context.clone());
         device.set_device_lost_callback(move |reason, message| {
             log::warn!("the graphics device is lost ({reason:?}): {message}");
             lost.store(true, Ordering::Release);
             context.request_repaint();
         });
-        let lost = Arc::clone(&watch.0);
+        let lost = Arc::clone(&watch.lost);
         device.on_uncaptured_error(Arc::new(move |error| {
             // Of a lost device everything fails, and it has been said.
             if !lost.load(Ordering::Acquire) {
@@ -73,7 +77,16 @@ impl Watch {
     }
 
     pub(super) fn is_lost(&self) -> bool {
-        self.0.load(Ordering::Acquire)
+        self.lost.load(Ordering::Acquire)
+    }
+
+    /// The same, asking the device: a frame may fail before the loss is told.
+    pub(super) fn is_lost_by_now(&self) -> bool {
+        if let Some(device) = &self.device {
+            // What is lost may refuse; the callback has been called all the same.
+            device.poll(wgpu::PollType::Poll).ok();
+        }
+        self.is_lost()
     }
 }
 

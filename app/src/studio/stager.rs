@@ -4,11 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use amc_core::Result;
 use amc_core::amc::Amc;
 use amc_core::direction::{self, Direction};
 use amc_core::mesh::{Garment, Picker, Unit};
 use amc_core::render::{Cloth, Drawing};
-use amc_core::{Progress, Result};
 use studio_plugin::document::{Asset, FabricId, Project};
 use studio_plugin::{Job, Jobs, Notices, Stage};
 
@@ -23,6 +23,8 @@ pub(super) struct Stager {
     /// What is drawn right of the divider of a split view, where that is not the same.
     pub(super) compared: Drawn,
     garment: Loading<Asset, Loaded>,
+    /// What darkens the folds takes longest, and comes when the garment is seen already.
+    shaded: Option<Job<Arc<Drawing>>>,
     fabrics: BTreeMap<FabricId, Loading<Asset, Arc<Amc>>>,
     loaded: Option<Loaded>,
 }
@@ -71,7 +73,7 @@ impl PartialEq for Recipe {
     fn eq(&self, other: &Self) -> bool {
         let same_fabrics = self.fabrics.len() == other.fabrics.len()
             && self.fabrics.iter().zip(&other.fabrics).all(|((a, x), (b, y))| a == b && Arc::ptr_eq(x, y));
-        Arc::ptr_eq(&self.loaded.garment, &other.loaded.garment) && self.looks == other.looks && same_fabrics
+        Arc::ptr_eq(&self.loaded.plain, &other.loaded.plain) && self.looks == other.looks && same_fabrics
     }
 }
 
@@ -86,6 +88,7 @@ impl Stager {
     /// Whether something is still to come.
     pub(super) fn is_busy(&self) -> bool {
         self.garment.job.is_some()
+            || self.shaded.is_some()
             || self.drawn.job.is_some()
             || self.compared.job.is_some()
             || self.fabrics.values().any(|it| it.job.is_some())
@@ -96,14 +99,13 @@ impl Stager {
             let asset = project.garment.clone();
             self.garment.wanted = Some(asset.clone());
             self.garment.job =
-                Some(jobs.start(format!("Opening {}", asset.name()), move |progress| {
-                    Loaded::new(&asset, progress)
-                }));
+                Some(jobs.start(format!("Opening {}", asset.name()), move |_| Loaded::new(&asset)));
         }
         if let Some(result) = self.garment.job.as_ref().and_then(Job::poll) {
             self.garment.job = None;
             match result {
                 Ok(loaded) => {
+                    self.shaded = Some(loaded.start_shading(&project.garment, jobs));
                     for notice in &loaded.garment.notices {
                         notices.note(notice);
                     }
@@ -111,6 +113,14 @@ impl Stager {
                     self.loaded = Some(loaded);
                 }
                 Err(error) => notices.failed(error),
+            }
+        }
+        if let Some(result) = self.shaded.as_ref().and_then(Job::poll) {
+            self.shaded = None;
+            match (result, &mut self.loaded) {
+                (Ok(plain), Some(loaded)) => loaded.plain = plain,
+                (Ok(_), None) => {}
+                (Err(error), _) => notices.failed(error),
             }
         }
     }
@@ -185,13 +195,21 @@ impl Drawn {
 }
 
 impl Loaded {
-    fn new(asset: &Asset, progress: &Progress<'_>) -> Result<Self> {
+    fn new(asset: &Asset) -> Result<Self> {
         let garment = load_garment(&path(asset), Unit::Metre)?;
-        let occlusion = vertex_occlusion(&garment, progress)?;
         let tangents = garment.normals.clone();
-        let plain = Drawing::new(&garment, tangents, Some(&occlusion), Vec::new(), |_| Cloth::Plain)?;
+        let plain = Drawing::new(&garment, tangents, None, Vec::new(), |_| Cloth::Plain)?;
         let picker = Picker::new(&plain)?;
         Ok(Self { garment: Arc::new(garment), plain: Arc::new(plain), picker: Arc::new(picker) })
+    }
+
+    /// The plain drawing with the occlusion of every vertex.
+    fn start_shading(&self, asset: &Asset, jobs: &mut Jobs) -> Job<Arc<Drawing>> {
+        let (garment, plain) = (Arc::clone(&self.garment), Arc::clone(&self.plain));
+        jobs.start(format!("Shading the folds of {}", asset.name()), move |progress| {
+            let occlusion = vertex_occlusion(&garment, progress)?;
+            plain.with_occlusion(&occlusion).map(Arc::new)
+        })
     }
 }
 

@@ -82,10 +82,10 @@ impl Viewport {
         if self.garment.as_ref().is_some_and(shows) && self.shape.as_ref().is_some_and(picks) {
             return;
         }
+        let is_as_large = |garment: &Garment| Arc::ptr_eq(&garment.drawing.vertices, &drawing.vertices);
         let revision = self.next_revision();
         match &mut self.shape {
-            // Bounds are those of the picker's panels.
-            Some(shape) if picks(shape) => {}
+            Some(shape) if picks(shape) && self.garment.as_ref().is_some_and(is_as_large) => {}
             shape => *shape = Some(Shape::new(&drawing, picker)),
         }
         match &mut self.garment {

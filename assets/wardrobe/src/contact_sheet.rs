@@ -51,9 +51,10 @@ pub fn contact_sheet(
         let tangents = tangents(garment, &directions)?;
         let open = occlusion::compute(garment, occlusion::Options::default(), &Progress::none())?;
         for (place, fabric) in fabrics.iter().enumerate() {
-            let drawing = Drawing::new(garment, tangents.vectors, Some(&open), vec![fabric.clone()], |_| {
-                Cloth::Fabric(0)
-            })?;
+            let drawing =
+                Drawing::new(garment, tangents.vectors.clone(), Some(&open), vec![fabric.clone()], |_| {
+                    Cloth::Fabric(0)
+                })?;
             for side in 0..SIDES {
                 let yaw = -FRAC_PI_2 * side as f32;
                 let orientation = Orientation { yaw, pitch: PITCH, roll: 0.0 };

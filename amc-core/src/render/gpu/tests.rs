@@ -145,7 +145,7 @@ fn a_back_face_has_its_normal_negated_and_its_tangent_kept(gpu: &Gpu) {
     let n = Vec3::new(0.3, -0.4, 0.75f32.sqrt());
     let t = Azimuth::Transported.tangent(n, 0.3 * std::f32::consts::TAU);
     let mut drawing = square(-1.0, 1.0, -n, t);
-    drawing.triangles = vec![[0, 2, 1], [0, 3, 2]];
+    drawing.triangles = vec![[0, 2, 1], [0, 3, 2]].into();
     drawing.fabrics = vec![table(Symmetry::One, Azimuth::Transported, ramp)];
     for cyclic in [Cyclic::Naive, Cyclic::Cyclic, Cyclic::Fragment] {
         let shading = Shading { cyclic, ..shading(Mode::Amc) };
@@ -339,7 +339,7 @@ fn a_changed_direction_uploads_only_what_changed(gpu: &Gpu) {
     let mut renderer = Renderer::new(&gpu.device, &gpu.queue);
     let mut scene = renderer.prepare(&drawing).unwrap();
     let (offscreen, eye) = (Offscreen::new(&gpu.device, 16, 16, 1).unwrap(), renderer.eye());
-    let mut picture = |scene: &mut Scene, renderer: &mut Renderer| {
+    let picture = |scene: &mut Scene, renderer: &mut Renderer| {
         let target = offscreen.target();
         let frame = renderer.draw_data(scene, &eye, &view(), &shading(Mode::Amc), target).unwrap();
         offscreen.picture(gpu, &frame, None).unwrap()
