@@ -18,6 +18,7 @@ use rustix::time::{ClockId, clock_gettime};
 use studio_tests::display::{self, Display, Window};
 use studio_tests::large_garment;
 use studio_tests::timing::{is_wanted, median, milliseconds, timed};
+use studio_tests::usage::Usage;
 
 /// From the start of the process to the first frame that shows the bundled project's garment.
 const FIRST_FRAME: Duration = Duration::from_millis(1500);
@@ -111,36 +112,6 @@ fn report(what: &str, time: Duration, bar: Duration) -> bool {
     let verdict = if time <= bar { "" } else { ": MISSED" };
     println!("{what}: {:.1} ms, bar {} ms{verdict}", milliseconds(time), bar.as_millis());
     time <= bar
-}
-
-/// What a process has used so far.
-struct Usage {
-    /// Processor time of all its threads.
-    seconds: f64,
-    /// How often its first thread, the interface's, gave up the processor: once for each time it was woken.
-    switches: u64,
-    /// Resident memory.
-    megabytes: f64,
-}
-
-impl Usage {
-    fn of(process: u32) -> Self {
-        let read = |file: String| std::fs::read_to_string(file).expect("/proc, as Linux has it");
-        let stat = read(format!("/proc/{process}/stat"));
-        // Behind the name, which may hold anything: fields 14 and 15, in hundredths of a second.
-        let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
-        let ticks = |field: usize| fields[field - 3].parse::<f64>().expect("a number");
-        let status = read(format!("/proc/{process}/task/{process}/status"));
-        let of = |name: &str| {
-            let line = status.lines().find_map(|line| line.strip_prefix(name)).expect("a known line");
-            line.trim_start_matches(':').split_whitespace().next().and_then(|word| word.parse::<u64>().ok())
-        };
-        Self {
-            seconds: (ticks(14) + ticks(15)) / 100.0,
-            switches: of("voluntary_ctxt_switches").expect("a number"),
-            megabytes: of("VmRSS").expect("a number") as f64 / 1024.0,
-        }
-    }
 }
 
 fn in_this_process() -> ExitCode {

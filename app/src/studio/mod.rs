@@ -195,7 +195,7 @@ fn open_window(
 fn no_window(error: eframe::Error) -> Error {
     use eframe::egui_wgpu::WgpuError;
     let what = match &error {
-        eframe::Error::Wgpu(WgpuError::RequestAdapterError(_)) => {
+        eframe::Error::Wgpu(WgpuError::RequestAdapterError(_) | WgpuError::CreateSurfaceError(_)) => {
             "there is no graphics adapter; install a graphics driver (in software: Mesa)".to_owned()
         }
         error => error.to_string(),

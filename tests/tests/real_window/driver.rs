@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use eframe::egui::{Pos2, Rect};
+use studio_tests::display::SIZE;
 use x11rb::connection::Connection as _;
 use x11rb::protocol::xproto::{ConnectionExt as _, ImageFormat, InputFocus, MapState, Window};
 use x11rb::protocol::xtest::ConnectionExt as _;
@@ -79,19 +80,24 @@ impl Person {
         keys.iter().rev().for_each(|&key| self.event(KEY_RELEASE, key, [0, 0]));
     }
 
+    /// Moves the pointer, and waits for what that does: all that comes within one frame is taken to be at one place.
     pub(super) fn point(&self, at: Pos2) {
         self.event(MOTION, 0, [at.x as i16, at.y as i16]);
+        let [width, height] = SIZE.map(f32::from);
+        self.sees("a window at rest", Rect::from_min_max(Pos2::ZERO, Pos2::new(width, height)), None);
     }
 
     pub(super) fn click(&self, at: Pos2) {
         self.point(at);
         self.event(BUTTON_PRESS, 1, [0, 0]);
         self.event(BUTTON_RELEASE, 1, [0, 0]);
+        // Still there while it is done.
+        self.point(at);
     }
 
     fn look(&self, rect: Rect) -> Sight {
         let [x, y] = [rect.min.x, rect.min.y].map(|it| it.ceil() as i16);
-        let [width, height] = [rect.width(), rect.height()].map(|it| it.floor() as u16 - 1);
+        let [width, height] = [rect.width(), rect.height()].map(|it| it.floor() as u16);
         let image = self.display.get_image(ImageFormat::Z_PIXMAP, self.root, x, y, width, height, !0);
         Sight(image.unwrap().reply().unwrap().data)
     }

@@ -45,7 +45,7 @@ fn places(garment: &Path) -> Places {
         .with_max_steps(100)
         .wgpu()
         .build_eframe(move |creation| studio.into_app(creation));
-    let mut settle = |harness: &mut Harness<'_, _>| {
+    let settle = |harness: &mut Harness<'_, _>| {
         let start = Instant::now();
         harness.step();
         while !amc_studio::studio::App::is_settled(harness.state()) {
@@ -60,8 +60,29 @@ fn places(garment: &Path) -> Places {
     let fabrics = harness.get_all_by_label("Fabrics").next().unwrap().rect().center();
     harness.get_all_by_label("Fabrics").next().unwrap().click();
     settle(&mut harness);
-    let fabric = harness.get_by_label("changeant").rect().center();
+    let fabric = harness.get_by_label_contains("changeant").rect().center();
+    // Within its edges, which may lie between pixels.
+    let view = view.shrink(1.0);
     Places { view, fabrics, fabric, aside: pos2(width / 2.0, 12.0) }
+}
+
+#[test]
+fn without_a_graphics_adapter_it_says_so_and_draws_on_the_processor() {
+    let home = tempfile::tempdir().unwrap();
+    let display = Display::start();
+    let output = std::process::Command::new(program())
+        .current_dir(home.path())
+        .env("HOME", home.path())
+        .env("DISPLAY", &display.name)
+        .env_remove("WAYLAND_DISPLAY")
+        .env("VK_DRIVER_FILES", "/none.json")
+        .env("__EGL_VENDOR_LIBRARY_FILENAMES", "/none.json")
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(said.starts_with("No window can be opened: there is no graphics adapter; install"), "{said}");
+    assert!(home.path().join("amc-studio.png").exists());
 }
 
 #[test]

@@ -93,11 +93,7 @@ impl Renderer {
     /// # Errors
     /// Indices that point outside of it, or more than the device holds.
     pub fn prepare(&self, drawing: &Drawing) -> Result<Scene> {
-        drawing.check()?;
-        // Corners are counted in 32 bits.
-        if drawing.triangles.len() > (u32::MAX / 3) as usize {
-            return Err(Error::too_large(format!("{} triangles", drawing.triangles.len())));
-        }
+        check(drawing)?;
         let fabrics = drawing.fabrics.iter().map(|amc| self.fabric(amc)).collect::<Result<_>>()?;
         Ok(Scene {
             mesh: MeshBuffers::new(&self.device, &self.queue, drawing)?,
@@ -128,19 +124,26 @@ impl Renderer {
     /// # Errors
     /// As [`Renderer::prepare`]; the scene is then as it was.
     pub fn update(&self, scene: &mut Scene, drawing: &Drawing) -> Result<u64> {
-        if !scene.mesh.has_shape_of(drawing) {
-            *scene = self.prepare(drawing)?;
-            return Ok(scene.mesh.bytes());
+        let has_its_shape = scene.mesh.has_shape_of(drawing);
+        if has_its_shape {
+            drawing.check_tangents()?;
+            drawing.check_draws()?;
+        } else {
+            check(drawing)?;
         }
-        drawing.check_tangents()?;
-        drawing.check_draws()?;
-        let known =
-            |amc: &Arc<Amc>| scene.fabrics.iter().find(|fabric| Arc::ptr_eq(&fabric.amc, amc)).cloned();
+        let known = |amc: &Arc<Amc>| scene.fabrics.iter().find(|it| Arc::ptr_eq(&it.amc, amc)).cloned();
         let fabric = |amc| known(amc).map_or_else(|| self.fabric(amc), Ok);
-        scene.fabrics = drawing.fabrics.iter().map(fabric).collect::<Result<_>>()?;
+        let fabrics = drawing.fabrics.iter().map(fabric).collect::<Result<_>>()?;
+        let bytes = if has_its_shape {
+            scene.mesh.set_tangents(&self.queue, &drawing.tangents)
+        } else {
+            scene.mesh = MeshBuffers::new(&self.device, &self.queue, drawing)?;
+            scene.mesh.bytes()
+        };
+        scene.fabrics = fabrics;
         scene.panels.clone_from(&drawing.draws);
         scene.draws = merged(drawing.draws.iter());
-        Ok(scene.mesh.set_tangents(&self.queue, &drawing.tangents))
+        Ok(bytes)
     }
 
     /// A place for one view.
@@ -290,6 +293,16 @@ impl SceneDrawData {
             pass.draw_indexed(draw.corners.clone(), 0, 0..1);
         }
     }
+}
+
+/// Whether a drawing can be drawn here.
+fn check(drawing: &Drawing) -> Result<()> {
+    drawing.check()?;
+    // Corners are counted in 32 bits.
+    if drawing.triangles.len() > (u32::MAX / 3) as usize {
+        return Err(Error::too_large(format!("{} triangles", drawing.triangles.len())));
+    }
+    Ok(())
 }
 
 /// The key of the pipeline that draws `mode`. Settings that the mode or the view does not look at are left at their
