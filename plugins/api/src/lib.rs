@@ -13,7 +13,9 @@ mod notices;
 mod plugin;
 mod registry;
 mod selection;
+mod shading_choice;
 mod stage;
+mod viewport;
 
 pub use command::Command;
 pub use context::{Context, Request};
@@ -22,4 +24,6 @@ pub use notices::{Notice, NoticeKind, Notices};
 pub use plugin::{Importer, Pane, Place, Plugin};
 pub use registry::{Registered, Registry};
 pub use selection::Selection;
+pub use shading_choice::ShadingChoice;
 pub use stage::Stage;
+pub use viewport::{Hand, ViewportView};
