@@ -5,15 +5,20 @@ mod commands;
 mod desk;
 mod dock;
 mod files;
+mod help;
 mod menu;
 mod palette;
 mod panes;
 mod questions;
 mod settings;
+mod settings_page;
+mod shortcuts;
 mod stager;
 mod texts;
 mod theme;
+mod thumbnail;
 mod toasts;
+mod welcome;
 
 use std::path::PathBuf;
 
@@ -86,6 +91,7 @@ impl Studio {
         let viewport = egui::ViewportBuilder::default()
             .with_title(texts::PROGRAM)
             .with_app_id("amc-studio")
+            .with_icon(icon())
             .with_inner_size([1440.0, 900.0])
             .with_min_inner_size([640.0, 420.0]);
         // Dithering would change the colours that are judged.
@@ -104,4 +110,10 @@ impl Studio {
     pub fn into_app(self, creation: &eframe::CreationContext<'_>) -> App {
         App::new(self.plugins, self.files, self.folders, creation)
     }
+}
+
+/// The program's icon. A window does without, if it cannot be decoded.
+fn icon() -> egui::IconData {
+    eframe::icon_data::from_png_bytes(include_bytes!("../../../assets/desktop/amc-studio.png"))
+        .unwrap_or_default()
 }

@@ -7,6 +7,13 @@ pub(super) const EDIT_MENU: &str = "Edit";
 pub(super) const SELECT_MENU: &str = "Select";
 pub(super) const VIEW_MENU: &str = "View";
 pub(super) const WINDOW_MENU: &str = "Window";
+pub(super) const HELP_MENU: &str = "Help";
+pub(super) const SETTINGS: &str = "Settings";
+pub(super) const GUIDE: &str = "User guide";
+pub(super) const FIRST_STEPS: &str = "First steps";
+pub(super) const ABOUT: &str = "About AMC Studio";
+pub(super) const PUT_AWAY: &str = "Escape puts it away";
+pub(super) const CLOSE: &str = "Close";
 pub(super) const PALETTE_HINT: &str = "Type what you want to do";
 pub(super) const PALETTE_NOTHING: &str = "No command is called that";
 pub(super) const VIEWPORT_TITLE: &str = "View";
@@ -28,3 +35,6 @@ pub(super) const MISSING_TEXT: &str =
     "They were moved, renamed or deleted. What is missing is left out of the view and kept in the project.";
 pub(super) const FIND: &str = "Find ...";
 pub(super) const WITHOUT: &str = "Go on without them";
+pub(super) const ABOUT_TEXT: &str = "A studio for Anisotropic MatCap: the look of real cloth under one light, in a small table. The method is by \
+     D. Magri, P. Cignoni and M. Tarini (2016). The program is under MIT or Apache-2.0, at your choice.";
+pub(super) const LICENCES: &str = "Made with the work of others, under these licences";

@@ -1,0 +1,189 @@
+//! What a person does, from the first click to the saved project.
+
+use std::time::{Duration, Instant};
+
+use amc_studio::studio::Studio;
+use eframe::egui::{Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use super::*;
+
+#[test]
+fn a_panel_is_picked_turned_undone_saved_and_opened_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.amcproj");
+    let mut harness = window(Studio::new(), folder.path());
+    let first = picture(&mut harness);
+
+    harness.get_by(|node| node.label().is_some_and(|label| label.starts_with("back"))).click();
+    settle(&mut harness);
+    let panel = "back";
+    let before = degrees(&harness, panel);
+    press(&mut harness, Modifiers::NONE, Key::R);
+    let turned = degrees(&harness, panel).unwrap();
+    assert_eq!(harness.state().document().undo_name(), Some("Swap warp and weft of 1 panel"));
+    let swapped = picture(&mut harness);
+    assert_ne!(first, swapped);
+
+    press(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert_eq!(degrees(&harness, panel), before);
+    press(&mut harness, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
+    assert_eq!(degrees(&harness, panel), Some(turned));
+
+    harness.state_mut().save_to(&file);
+    settle(&mut harness);
+    assert!(!harness.state().document().is_changed());
+    let saved = harness.state().document().project().clone();
+    drop(harness);
+
+    let mut again = window(Studio::new().open([file]), folder.path());
+    assert_eq!(again.state().document().project(), &saved);
+    assert_eq!(degrees(&again, panel), Some(turned));
+    picture(&mut again);
+    drop(again);
+
+    // The project is offered among the recent ones.
+    let mut third = window(Studio::new(), folder.path());
+    assert_eq!(degrees(&third, panel), before);
+    click(&mut third, "File");
+    click(&mut third, "mine.amcproj");
+    assert_eq!(degrees(&third, panel), Some(turned));
+}
+
+#[test]
+fn the_palette_finds_a_command_by_a_few_letters() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    press(&mut harness, Modifiers::COMMAND, Key::P);
+    harness.get_by_label("Type what you want to do").type_text("bias");
+    settle(&mut harness);
+    press(&mut harness, Modifiers::NONE, Key::Enter);
+    let project = harness.state().document().project();
+    assert!(project.panels.values().all(|look| look.direction.is_some()));
+    assert!(harness.state().document().undo_name().is_some_and(|name| name.contains("45")));
+}
+
+#[test]
+fn unsaved_work_of_a_window_that_died_is_offered_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    press(&mut harness, Modifiers::NONE, Key::R);
+    let turned = degrees(&harness, "back");
+    let recovery = folder.path().join("kept/recovery");
+    let start = Instant::now();
+    let kept =
+        || std::fs::read_dir(&recovery).unwrap().flatten().any(|it| it.metadata().unwrap().len() > 200);
+    while !kept() {
+        assert!(start.elapsed() < PATIENCE, "nothing was kept");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    // Dropped without having been closed.
+    drop(harness);
+    let mut again = window(Studio::new(), folder.path());
+    assert_eq!(degrees(&again, "back"), None);
+    click(&mut again, "Take it back");
+    assert_eq!(degrees(&again, "back"), turned);
+    assert!(again.state().document().is_changed());
+}
+
+#[test]
+fn a_command_that_cannot_be_run_is_greyed_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    let greyed = |harness: &Harness<'_, App>| {
+        harness.get_by_label_contains("Hide selected panels").accesskit_node().is_disabled()
+    };
+    // The menu stands left of the tab of the same name.
+    harness.get_all_by_label("Panels").next().unwrap().click();
+    settle(&mut harness);
+    assert!(greyed(&harness));
+    press(&mut harness, Modifiers::COMMAND, Key::A);
+    assert!(!greyed(&harness));
+}
+
+#[test]
+fn what_cannot_be_opened_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let odd = folder.path().join("notes.txt");
+    amc_core::file::save_bytes(&odd, b"hello").unwrap();
+    let mut harness = window(Studio::new().open([odd, folder.path().join("gone.glb")]), folder.path());
+    click(&mut harness, "Log");
+    assert!(reads(&harness, &["nothing here opens 'notes.txt'"]));
+    assert!(reads(&harness, &["gone.glb", "cannot open"]));
+}
+
+#[test]
+fn a_split_view_shows_what_is_compared_and_is_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("split.amcproj");
+    let mut harness = window(Studio::new(), folder.path());
+    let whole = picture(&mut harness);
+    press(&mut harness, Modifiers::NONE, Key::C);
+    let split = picture(&mut harness);
+    assert_ne!(whole, split);
+    click(&mut harness, "Look");
+    harness.get_by_label("Right: shading").click();
+    settle(&mut harness);
+    harness.state_mut().save_to(&file);
+    settle(&mut harness);
+    let compared = harness.state().document().project().view.compared.clone();
+    assert_eq!(compared.as_ref().map(|it| it.turned_deg), Some(90.0));
+    drop(harness);
+    let mut again = window(Studio::new().open([file]), folder.path());
+    assert_eq!(again.state().document().project().view.compared, compared);
+    press(&mut again, Modifiers::NONE, Key::C);
+    assert_eq!(again.state().document().project().view.compared, None);
+}
+
+#[test]
+fn notes_are_one_step_of_the_undo_and_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    let field =
+        harness.get_by_role_and_label(egui::accesskit::Role::MultilineTextInput, "Notes on the project");
+    field.focus();
+    settle(&mut harness);
+    for text in ["ask ", "the ", "mill"] {
+        harness
+            .get_by_role_and_label(egui::accesskit::Role::MultilineTextInput, "Notes on the project")
+            .type_text(text);
+        settle(&mut harness);
+    }
+    assert_eq!(harness.state().document().project().notes, "ask the mill");
+    assert_eq!(harness.state().document().undo_name(), Some("Edit the notes"));
+    click(&mut harness, "History");
+    click(&mut harness, "The beginning");
+    assert_eq!(harness.state().document().project().notes, "");
+}
+
+#[test]
+fn the_first_steps_do_what_they_say_and_go_for_good() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    click(&mut harness, "Swap them now");
+    let undo = harness.state().document().undo_name().map(str::to_owned);
+    assert!(undo.is_some_and(|name| name.starts_with("Swap warp and weft")));
+    click(&mut harness, "Show the fabrics");
+    assert!(reads(&harness, &["A click puts a fabric on"]));
+    click(&mut harness, "Close");
+    assert!(harness.query_by_label("Swap them now").is_none());
+    eframe::App::on_exit(harness.state_mut());
+    drop(harness);
+    let mut again = window(Studio::new(), folder.path());
+    assert!(again.query_by_label("Swap them now").is_none());
+    press(&mut again, Modifiers::SHIFT, Key::F1);
+    assert!(again.query_by_label("Swap them now").is_some());
+}
+
+#[test]
+fn the_guide_and_the_licences_can_be_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    press(&mut harness, Modifiers::NONE, Key::F1);
+    click(&mut harness, "Directions");
+    assert!(reads(&harness, &["counter-clockwise from the right"]));
+    press(&mut harness, Modifiers::NONE, Key::F1);
+    press(&mut harness, Modifiers::COMMAND, Key::F1);
+    assert!(reads(&harness, &["accesskit"]));
+}
