@@ -90,6 +90,22 @@ pub enum Mode {
     Tangents,
     /// The UV coordinates' fractional part in red and green, sRGB-encoded values; a checker in blue.
     Uv,
+    /// A shader from outside. Only the graphics device draws it.
+    Own(OwnMode),
+}
+
+/// A shading mode from outside: WGSL that takes the place of a built-in mode's.
+///
+/// It has the entry points `vertex_main` and `fragment_main` (`#import surface` brings a `vertex_main`), and may import all
+/// that `shaders/` holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct OwnMode {
+    /// The shader's name: letters, digits, `-` and `_`; none that `shaders/` has.
+    pub name: &'static str,
+    /// Its text.
+    pub text: &'static str,
+    /// Whether it looks up the fabric (`#import table`). Then parts without one stay grey.
+    pub reads_fabric: bool,
 }
 
 /// How the cyclic coordinate of the azimuth gets from vertices to fragments (paper, section 6.2).

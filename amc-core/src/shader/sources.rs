@@ -45,10 +45,13 @@ pub struct Source {
     pub text: Cow<'static, str>,
 }
 
-/// Where shaders are looked for, by name: in a folder, if one is given, then among those embedded in the program.
+/// Where shaders are looked for, by name: in a folder, if one is given, then among those embedded in the program, then
+/// among those from outside.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Sources {
     folder: Option<PathBuf>,
+    /// Shaders from outside, by name.
+    own: Vec<(&'static str, &'static str)>,
 }
 
 impl Sources {
@@ -59,7 +62,22 @@ impl Sources {
 
     /// The files of `folder` before the embedded ones: a development tree, or a folder that overrides some of them.
     pub fn folder(folder: impl Into<PathBuf>) -> Self {
-        Self { folder: Some(folder.into()) }
+        Self { folder: Some(folder.into()), own: Vec::new() }
+    }
+
+    /// These, and one shader more.
+    ///
+    /// # Errors
+    /// `name` is no name, or that of an embedded shader.
+    pub fn with(&self, name: &'static str, text: &'static str) -> Result<Self> {
+        check_name(name)?;
+        if EMBEDDED.iter().any(|(known, _)| *known == name) {
+            return Err(Error::invalid(format!("the program has a shader {name:?}: choose another name")));
+        }
+        let mut more = self.clone();
+        more.own.retain(|(known, _)| *known != name);
+        more.own.push((name, text));
+        Ok(more)
     }
 
     /// The names of all shaders there are, sorted.
@@ -81,6 +99,7 @@ impl Sources {
                 }
             }
         }
+        names.extend(self.own.iter().map(|(name, _)| (*name).to_owned()));
         names.sort();
         names.dedup();
         Ok(names)
@@ -91,18 +110,14 @@ impl Sources {
     /// # Errors
     /// `name` is no name (letters, digits, `_`, `-`), or its file cannot be read, is larger than 1 MiB or not UTF-8.
     pub fn read(&self, name: &str) -> Result<Option<Source>> {
-        if !is_name(name) {
-            return Err(Error::malformed(format!(
-                "{name:?} is no name of a shader: letters, digits, - and _ make one"
-            )));
-        }
+        check_name(name)?;
         if let Some(folder) = &self.folder {
             let path = folder.join(format!("{name}.wgsl"));
             if path.exists() {
                 return read_file(&path).map(Some);
             }
         }
-        let embedded = EMBEDDED.iter().find(|(known, _)| *known == name);
+        let embedded = EMBEDDED.iter().chain(&self.own).find(|(known, _)| *known == name);
         Ok(embedded.map(|(name, text)| Source {
             file: PathBuf::from(format!("shaders/{name}.wgsl")),
             text: Cow::Borrowed(text),
@@ -116,6 +131,13 @@ fn read_file(path: &Path) -> Result<Source> {
         Error::malformed("not UTF-8 text").at_byte(valid as u64).in_file(path)
     })?;
     Ok(Source { file: path.to_owned(), text: Cow::Owned(text) })
+}
+
+fn check_name(name: &str) -> Result<()> {
+    if is_name(name) {
+        return Ok(());
+    }
+    Err(Error::malformed(format!("{name:?} is no name of a shader: letters, digits, - and _ make one")))
 }
 
 fn is_name(name: &str) -> bool {

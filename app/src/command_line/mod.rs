@@ -4,6 +4,7 @@
 
 mod bake;
 mod build;
+mod completions;
 mod convert;
 mod demo;
 mod inspect;
@@ -78,6 +79,8 @@ enum Command {
     Inspect(inspect::Arguments),
     /// Convert an AMC to or from slice atlas, slice folder or ordinary MatCap.
     Convert(convert::Arguments),
+    /// Print completions for a shell.
+    Completions(completions::Arguments),
     /// Capture from a turntable and a camera (not available in this version).
     Capture(NotYet),
     /// Spatially varying cloth from a single view (not available in this version).
@@ -127,6 +130,7 @@ fn dispatch(arguments: Arguments, output: &Output) -> Outcome {
         Some(Command::Tangents(arguments)) => tangents::run(&arguments, output),
         Some(Command::Inspect(arguments)) => inspect::run(&arguments, output),
         Some(Command::Convert(arguments)) => convert::run(&arguments, output),
+        Some(Command::Completions(arguments)) => completions::run(&arguments),
         Some(Command::Capture(NotYet { .. })) => not_available("the command 'capture'"),
         Some(Command::Microfacet(NotYet { .. })) => not_available("the command 'microfacet'"),
         Some(Command::Shaders(NotYet { .. })) => not_available("the command 'shaders'"),

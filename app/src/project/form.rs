@@ -6,6 +6,7 @@ use std::path::Path;
 use amc_core::Result;
 use amc_core::direction::{Direction, Source};
 use serde::{Deserialize, Deserializer, Serialize};
+use serde_json::Value;
 use studio_plugin::document::{Asset, FabricId, FabricInUse, PanelChoice, Project, ViewSettings};
 
 use super::paths;
@@ -18,6 +19,7 @@ pub(super) struct ProjectForm {
     garment: AssetForm,
     fabrics: Vec<FabricForm>,
     panels: BTreeMap<String, PanelForm>,
+    plugins: BTreeMap<String, Value>,
     view: ViewSettings,
     notes: String,
 }
@@ -29,7 +31,16 @@ impl Default for ProjectForm {
             Asset::Bundled(name) => name,
             Asset::File { .. } => String::new(),
         });
-        Self { version: super::VERSION, garment, fabrics: Vec::new(), panels: BTreeMap::new(), view, notes }
+        let plugins = BTreeMap::new();
+        Self {
+            version: super::VERSION,
+            garment,
+            fabrics: Vec::new(),
+            panels: BTreeMap::new(),
+            plugins,
+            view,
+            notes,
+        }
     }
 }
 
@@ -97,6 +108,7 @@ impl ProjectForm {
             garment: AssetForm::new(&project.garment, folder)?,
             fabrics: fabrics.collect::<Result<_>>()?,
             panels: panels.collect(),
+            plugins: project.plugins.clone(),
             view: project.view.clone(),
             notes: project.notes.clone(),
         })
@@ -117,6 +129,7 @@ impl ProjectForm {
             garment: self.garment.into_asset(folder),
             fabrics: fabrics.collect(),
             panels: panels.collect(),
+            plugins: self.plugins,
             view: self.view,
             notes: self.notes,
         }

@@ -1,6 +1,9 @@
 //! The application: what is open, and one frame of it.
 
-use std::collections::BTreeSet;
+mod actions;
+mod asking;
+mod panes;
+
 use std::path::Path;
 
 use amc_core::render::gpu::Gpu;
@@ -8,19 +11,22 @@ use eframe::egui::{self, Key, Modifiers, ViewportCommand};
 use studio_plugin::document::Document;
 use studio_plugin::{Context, Jobs, Notices, Registry, Request, Selection};
 
-use super::commands::{self, Action, Wanted};
+use super::commands::{self, Offered};
 use super::desk::Desk;
 use super::device_loss::{Handover, Kept, Watch};
-use super::dock::{self, Layout, Pane};
+use super::dock::{self, Layout};
 use super::files::{self, Dialog, Opened, Purpose};
+use super::help::Help;
 use super::menu::Menu;
 use super::milestones::Milestones;
 use super::palette::Palette;
-use super::questions::{self, OfMissing, OfRecovery};
+use super::settings::{self, Preferences};
+use super::settings_page::SettingsPage;
 use super::stager::Stager;
-use super::theme::{self, STEP, Tokens};
-use super::{Studio, settings, texts, toasts};
-use crate::viewport::{Viewport, ViewportInput};
+use super::theme::{self, Tokens};
+use super::welcome::Chosen;
+use super::{Studio, texts, toasts};
+use crate::viewport::Viewport;
 
 /// The studio's window.
 pub struct App {
@@ -33,7 +39,14 @@ pub struct App {
     gpu: Option<Gpu>,
     viewport: Option<Viewport>,
     layout: Layout,
+    preferences: Preferences,
+    settings_page: SettingsPage,
+    help: Help,
     palette: Palette,
+    /// The plugin and its tool in the person's hand.
+    tool: Option<(&'static str, &'static str)>,
+    /// What was chosen on the cards of the first steps in this frame.
+    chosen_step: Option<Chosen>,
     dialog: Option<Dialog>,
     /// Asked before the window closes with changes.
     leaving: bool,
@@ -63,10 +76,13 @@ impl App {
         let Studio { plugins: mut registry, files, folders, has_dialogs, tell } = studio;
         let mut notices = Notices::default();
         let desk = Desk::new(folders, &mut notices);
-        let layout =
-            desk.settings_folder().and_then(|folder| settings::restore(folder, &mut registry, &mut notices));
+        let (layout, preferences) = desk
+            .settings_folder()
+            .map(|folder| settings::restore(folder, &mut registry, &mut notices))
+            .unwrap_or_default();
         let layout = layout.unwrap_or_else(|| dock::initial(&registry));
-        let kept = Kept { desk, selection: Selection::default(), registry, layout, notices, has_dialogs };
+        let selection = Selection::default();
+        let kept = Kept { desk, selection, registry, layout, preferences, notices, has_dialogs };
         let mut app = Self::with(kept, creation);
         app.milestones = tell.map_or_else(Milestones::default, Milestones::new);
         for file in files {
@@ -92,18 +108,24 @@ impl App {
         theme::apply(&creation.egui_ctx);
         let context = creation.egui_ctx.clone();
         let render_state = creation.wgpu_render_state.as_ref();
-        let Kept { desk, selection, registry, layout, notices, has_dialogs } = kept;
+        let Kept { desk, selection, registry, layout, preferences, notices, has_dialogs } = kept;
+        preferences.apply(&creation.egui_ctx);
         Self {
             desk,
             selection,
             jobs: Jobs::new(move || context.request_repaint()),
             notices,
             layout,
+            stager: Stager::new(&registry),
             registry,
-            stager: Stager::default(),
             gpu: render_state.map(|state| Gpu { device: state.device.clone(), queue: state.queue.clone() }),
             viewport: render_state.map(Viewport::new),
+            preferences,
+            settings_page: SettingsPage::default(),
+            help: Help::default(),
             palette: Palette::default(),
+            tool: None,
+            chosen_step: None,
             dialog: None,
             leaving: false,
             discard: false,
@@ -125,6 +147,42 @@ impl App {
     /// Whether all that the document asks for is drawn, and nothing runs.
     pub fn is_settled(&self) -> bool {
         self.jobs.is_idle() && !self.desk.is_busy() && !self.stager.is_busy()
+    }
+
+    /// Takes in what has happened since the last frame; gives the commands there are.
+    fn begin_frame(&mut self, ui: &egui::Ui) -> Vec<Offered> {
+        self.answered(ui);
+        self.drops(ui);
+        self.with_context(|registry, studio| registry.each(studio, |plugin, studio| plugin.update(studio)));
+        self.desk.update(&mut self.notices);
+        self.stager.update(self.desk.document.project(), &mut self.jobs, &mut self.notices);
+        if let Some(garment) = &self.stager.stage.garment {
+            self.selection.retain(|id| garment.panels.iter().any(|panel| panel.id == id));
+        }
+        let mut all = commands::all(&self.registry);
+        self.preferences.shortcuts.apply(&mut all);
+        all
+    }
+
+    /// Every pane that there is: the plugin's id, and the pane's.
+    pub fn panes(&self) -> Vec<(&'static str, &'static str)> {
+        let plugins = self.registry.plugins().iter().map(|it| it.plugin());
+        plugins.flat_map(|it| it.panes().into_iter().map(|pane| (it.id(), pane.id))).collect()
+    }
+
+    /// One frame with nothing but a pane of [`App::panes`].
+    pub fn show_alone(
+        &mut self,
+        ui: &mut egui::Ui,
+        _frame: &mut eframe::Frame,
+        (plugin, pane): (&'static str, &'static str),
+    ) {
+        let all = self.begin_frame(ui);
+        if let Some(wanted) = self.pressed(ui, &all) {
+            self.run(wanted, ui);
+        }
+        let frame = dock::pane_frame(Tokens::of(ui));
+        egui::CentralPanel::default().frame(frame).show(ui, |ui| self.show_pane(ui, plugin, pane));
     }
 
     /// Opens a file as one that was dropped.
@@ -174,28 +232,6 @@ impl App {
         });
     }
 
-    fn ask(&mut self, purpose: Purpose) {
-        if self.dialog.is_none() {
-            let name = files::suggested_name(self.desk.document.project());
-            let file = self.desk.file.as_deref();
-            self.dialog = Some(Dialog::open(purpose, (&name, file), self.has_dialogs, &mut self.jobs));
-        }
-    }
-
-    fn answered(&mut self, ui: &egui::Ui) {
-        let Some(dialog) = &mut self.dialog else { return };
-        let Some(answer) = dialog.poll(ui) else { return };
-        let purpose = dialog.purpose.clone();
-        self.dialog = None;
-        match (answer, purpose) {
-            (Ok(Some(path)), Purpose::Open) => self.open(&path),
-            (Ok(Some(path)), Purpose::Save) => self.save_to(&path),
-            (Ok(Some(path)), Purpose::Find(old)) => self.desk.locate(&old, &path, &mut self.notices),
-            (Ok(None), _) => {}
-            (Err(error), _) => self.notices.failed(error),
-        }
-    }
-
     /// Lends plugins what they may see, then does what they asked for.
     fn with_context<T>(&mut self, call: impl FnOnce(&mut Registry, &mut Context<'_>) -> T) -> T {
         let mut requests = Vec::new();
@@ -226,274 +262,9 @@ impl App {
         }
     }
 
-    fn run(&mut self, wanted: Wanted, ui: &egui::Ui) {
-        match wanted {
-            Wanted::Own(action) => self.act(action, ui),
-            Wanted::Recent(index) => {
-                if let Some(path) = self.desk.recent.get(index).cloned() {
-                    self.open(&path);
-                }
-            }
-            Wanted::Pane { plugin, pane } => {
-                let pane = Pane::Plugin { plugin: plugin.to_owned(), pane: pane.to_owned() };
-                dock::bring_forward(&mut self.layout, &pane);
-            }
-            Wanted::Plugin { plugin, command } => self.with_context(|registry, studio| {
-                if let Some(plugin) = registry.get_mut(plugin) {
-                    plugin.call(studio, |plugin, studio| {
-                        if plugin.can_run(command, studio) {
-                            plugin.run(command, studio);
-                        }
-                    });
-                }
-            }),
-        }
-    }
-
-    fn act(&mut self, action: Action, ui: &egui::Ui) {
-        match action {
-            Action::New => self.desk.begin(),
-            Action::Open => self.ask(Purpose::Open),
-            Action::Save => self.save(),
-            Action::SaveAs => self.ask(Purpose::Save),
-            Action::Quit => ui.send_viewport_cmd(ViewportCommand::Close),
-            Action::Undo => {
-                self.desk.document.undo();
-            }
-            Action::Redo => {
-                self.desk.document.redo();
-            }
-            Action::SelectAll => {
-                let panels = self.stager.stage.garment.iter().flat_map(|garment| &garment.panels);
-                let panels = panels.filter(|panel| panel.takes_fabric).map(|panel| panel.id.clone());
-                self.selection.panels = panels.collect();
-            }
-            Action::SelectNone => self.selection.panels.clear(),
-            Action::Palette => self.palette.toggle(),
-            Action::Theme => {
-                let other =
-                    if ui.theme() == egui::Theme::Dark { egui::Theme::Light } else { egui::Theme::Dark };
-                ui.set_theme(other);
-            }
-            Action::ResetLayout => self.layout = dock::initial(&self.registry),
-            Action::Larger => ui.set_zoom_factor((ui.zoom_factor() + 0.1).min(2.5)),
-            Action::Smaller => ui.set_zoom_factor((ui.zoom_factor() - 0.1).max(0.5)),
-        }
-    }
-
-    fn can_run(&self, wanted: Wanted) -> bool {
-        match wanted {
-            Wanted::Own(Action::Undo) => self.desk.document.undo_name().is_some(),
-            Wanted::Own(Action::Redo) => self.desk.document.redo_name().is_some(),
-            Wanted::Own(Action::SelectNone) => !self.selection.panels.is_empty(),
-            Wanted::Own(_) | Wanted::Plugin { .. } | Wanted::Pane { .. } | Wanted::Recent(_) => true,
-        }
-    }
-
-    /// The plugins' commands that cannot be run now.
-    fn blocked(&mut self, all: &[(&'static str, studio_plugin::Command, Wanted)]) -> Vec<Wanted> {
-        self.with_context(|registry, studio| {
-            let mut is_blocked = |wanted: &Wanted| {
-                let Wanted::Plugin { plugin, command } = *wanted else { return false };
-                let plugin = registry.get_mut(plugin);
-                plugin.and_then(|it| it.call(studio, |plugin, studio| plugin.can_run(command, studio)))
-                    == Some(false)
-            };
-            all.iter().map(|(.., wanted)| *wanted).filter(|wanted| is_blocked(wanted)).collect()
-        })
-    }
-
-    /// The command whose shortcut was pressed, unless somebody types a text.
-    fn pressed(
-        &self,
-        ui: &egui::Ui,
-        all: &[(&'static str, studio_plugin::Command, Wanted)],
-    ) -> Option<Wanted> {
-        let typing = ui.egui_wants_keyboard_input();
-        let fires = |shortcut: &egui::KeyboardShortcut| {
-            // Letters alone are for whoever is typing.
-            let plain = !shortcut.modifiers.command && !shortcut.modifiers.alt;
-            !(typing && plain) && ui.input_mut(|input| input.consume_shortcut(shortcut))
-        };
-        // Those with more modifiers first: what is pressed with Shift is not what is pressed without.
-        let mut with_keys: Vec<_> =
-            all.iter().filter_map(|(_, command, wanted)| Some((command.shortcut?, *wanted))).collect();
-        let count = |modifiers: Modifiers| {
-            u8::from(modifiers.command) + u8::from(modifiers.shift) + u8::from(modifiers.alt)
-        };
-        with_keys.sort_by_key(|(shortcut, _)| std::cmp::Reverse(count(shortcut.modifiers)));
-        with_keys.into_iter().find(|(shortcut, _)| fires(shortcut)).map(|(_, wanted)| wanted)
-    }
-
     fn title(&self) -> String {
         let name = self.desk.file.as_ref().and_then(|file| file.file_name());
         name.map_or_else(|| texts::UNNAMED.to_owned(), |name| name.to_string_lossy().into_owned())
-    }
-
-    fn show_panes(&mut self, ui: &mut egui::Ui) {
-        // Taken out while it is shown: what is shown in it is the rest of the studio.
-        let mut layout = std::mem::replace(&mut self.layout, Layout::empty(egui::Id::unique("lent")));
-        let titles: Vec<(Pane, String)> = std::iter::once((Pane::Viewport, texts::VIEWPORT_TITLE.to_owned()))
-            .chain(self.registry.plugins().iter().filter(|it| !it.is_off()).flat_map(|it| {
-                let id = it.plugin().id();
-                it.plugin().panes().into_iter().map(move |pane| {
-                    (Pane::Plugin { plugin: id.to_owned(), pane: pane.id.to_owned() }, pane.title.to_owned())
-                })
-            }))
-            .collect();
-        let title =
-            |wanted: &Pane| titles.iter().find(|(pane, _)| pane == wanted).map(|(_, title)| title.clone());
-        let mut show = |pane: &Pane, ui: &mut egui::Ui| match pane {
-            Pane::Viewport => self.show_viewport(ui),
-            Pane::Plugin { plugin, pane } => self.with_context(|registry, studio| {
-                if let Some(plugin) = registry.get_mut(plugin) {
-                    plugin.call(studio, |plugin, studio| plugin.show(pane, ui, studio));
-                }
-            }),
-        };
-        let mut behavior = dock::Behavior { tokens: Tokens::of(ui), title: &title, show: &mut show };
-        layout.ui(&mut behavior, ui);
-        self.layout = if dock::is_usable(&layout) { layout } else { dock::initial(&self.registry) };
-    }
-
-    fn show_viewport(&mut self, ui: &mut egui::Ui) {
-        let Some(viewport) = &mut self.viewport else {
-            ui.centered_and_justified(|ui| ui.label(texts::NO_GPU));
-            return;
-        };
-        let Some((drawing, picker)) = &self.stager.drawn.latest else {
-            ui.centered_and_justified(|ui| ui.weak(texts::LOADING));
-            return;
-        };
-        viewport.set_scene(drawing.clone(), picker.clone());
-        viewport.set_compared(self.stager.compared.latest.as_ref().map(|(drawing, _)| drawing.clone()));
-        let Some(garment) = &self.stager.stage.garment else { return };
-        let project = self.desk.document.project();
-        let number = |id: &String| garment.panels.iter().position(|panel| panel.id == *id);
-        let selected: BTreeSet<usize> = self.selection.panels.iter().filter_map(number).collect();
-        let hidden: BTreeSet<usize> =
-            (0..garment.panels.len()).filter(|&k| !project.look_of(&garment.panels[k]).visible).collect();
-        let tokens = Tokens::of(ui);
-        let input = ViewportInput {
-            selected: &selected,
-            hovered: self.selection.hovered.as_ref().and_then(number),
-            hidden: &hidden,
-            compared: project.view.compared_shading(),
-            tool: false,
-            backdrop: tokens.gap,
-            selected_color: tokens.accent,
-            hovered_color: tokens.text_weak,
-        };
-        let mut view = project.view.clone();
-        let output = viewport.show(ui, &mut view, &input);
-        let id = |panel: usize| garment.panels.get(panel).map(|panel| panel.id.clone());
-        self.selection.hovered = output.hovered.and_then(id);
-        if let Some(click) = output.clicked {
-            match click.panel.and_then(id) {
-                Some(panel) => self.selection.click(&panel, click.add),
-                None if !click.add => self.selection.panels.clear(),
-                None => {}
-            }
-        }
-        if let Some(boxed) = output.boxed {
-            if !boxed.add {
-                self.selection.panels.clear();
-            }
-            self.selection.panels.extend(boxed.panels.into_iter().filter_map(id));
-        }
-        if view != project.view {
-            self.desk.document.set_view(view);
-        }
-    }
-
-    /// Takes in files that were dropped, and says while some are held over the window that they can be.
-    fn drops(&mut self, ui: &egui::Ui) {
-        let (dropped, held) =
-            ui.input(|input| (input.raw.dropped_files.clone(), !input.raw.hovered_files.is_empty()));
-        for file in dropped {
-            self.open(file.path());
-        }
-        if held {
-            let painter =
-                ui.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop")));
-            let tokens = Tokens::of(ui);
-            let rect = ui.content_rect().shrink(4.0 * STEP);
-            painter.rect(
-                rect,
-                2.0 * STEP,
-                tokens.surface.gamma_multiply(0.9),
-                egui::Stroke::new(2.0, tokens.accent),
-                egui::StrokeKind::Inside,
-            );
-            painter.text(
-                rect.center(),
-                egui::Align2::CENTER_CENTER,
-                texts::DROP_HERE,
-                egui::TextStyle::Heading.resolve(ui.style()),
-                tokens.text,
-            );
-        }
-    }
-
-    /// Asks what must be answered before the work goes on.
-    fn question(&mut self, ui: &egui::Ui) {
-        // One at a time: what is taken back would take the place of what is not saved yet.
-        let offered = if self.desk.document.is_changed() { &[] } else { self.desk.recoverable.as_slice() };
-        match questions::recovery(ui, offered) {
-            Some(OfRecovery::Recover(index)) => self.desk.recover(index, &mut self.notices),
-            Some(OfRecovery::Discard(index)) => self.desk.discard(index, &mut self.notices),
-            None => {}
-        }
-        match questions::missing(ui, &self.desk.missing) {
-            Some(OfMissing::Find(path)) => self.ask(Purpose::Find(path)),
-            Some(OfMissing::Without) => self.desk.missing.clear(),
-            None => {}
-        }
-    }
-
-    /// Holds the window open while there are changes that nobody has said what to do with.
-    fn leave(&mut self, ui: &egui::Ui) {
-        if ui.input(|input| input.viewport().close_requested())
-            && self.desk.document.is_changed()
-            && !self.discard
-        {
-            ui.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.leaving = true;
-        }
-        if self.leaving_saved && !self.desk.is_busy() && self.dialog.is_none() {
-            // What could not be saved keeps the window open.
-            self.leaving_saved = false;
-            if !self.desk.document.is_changed() {
-                ui.send_viewport_cmd(ViewportCommand::Close);
-            }
-        }
-        if !self.leaving {
-            return;
-        }
-        let mut save = false;
-        let modal = egui::Modal::new(egui::Id::unique("leaving")).show(ui, |ui| {
-            ui.heading(texts::UNSAVED_TITLE);
-            ui.label(texts::UNSAVED_TEXT);
-            ui.add_space(2.0 * STEP);
-            ui.horizontal(|ui| {
-                save = ui.button(texts::SAVE).clicked();
-                self.discard = ui.button(texts::DISCARD).clicked();
-                if ui.button(texts::STAY).clicked() {
-                    self.leaving = false;
-                }
-            });
-        });
-        if modal.should_close() {
-            self.leaving = false;
-        }
-        if save {
-            self.save();
-            self.leaving = false;
-            self.leaving_saved = true;
-        }
-        if self.discard {
-            ui.send_viewport_cmd(ViewportCommand::Close);
-        }
     }
 }
 
@@ -505,15 +276,7 @@ impl eframe::App for App {
             return;
         }
         self.milestones.begin_frame(ui);
-        self.answered(ui);
-        self.drops(ui);
-        self.with_context(|registry, studio| registry.each(studio, |plugin, studio| plugin.update(studio)));
-        self.desk.update(&mut self.notices);
-        self.stager.update(self.desk.document.project(), &mut self.jobs, &mut self.notices);
-        if let Some(garment) = &self.stager.stage.garment {
-            self.selection.retain(|id| garment.panels.iter().any(|panel| panel.id == id));
-        }
-        let all = commands::all(&self.registry);
+        let all = self.begin_frame(ui);
         let mut wanted = self.pressed(ui, &all);
         let blocked = self.blocked(&all);
         let title = self.title();
@@ -529,12 +292,20 @@ impl eframe::App for App {
         let bar = egui::Panel::top("menu").show(ui, |ui| menu.show(ui)).inner;
         wanted = wanted.or(bar);
         egui::CentralPanel::no_frame().show(ui, |ui| self.show_panes(ui));
+        if let Some(chosen) = self.chosen_step.take() {
+            self.take_step(chosen, ui);
+        }
         wanted = wanted.or(self.palette.show(ui, &all));
+        self.show_settings(ui, &all);
+        self.help.show(ui);
         if let Some(wanted) = wanted {
             self.run(wanted, ui);
         }
         if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
-            self.selection.panels.clear();
+            match self.tool.take() {
+                Some(_) => {}
+                None => self.selection.panels.clear(),
+            }
         }
         toasts::show(ui, &self.notices);
         self.question(ui);
@@ -554,7 +325,12 @@ impl eframe::App for App {
             return;
         }
         if let Some(folder) = self.desk.settings_folder().map(Path::to_owned)
-            && let Err(error) = settings::keep(&folder, &mut self.registry, &self.layout, &mut self.notices)
+            && let Err(error) = settings::keep(
+                &folder,
+                &mut self.registry,
+                (&self.layout, &self.preferences),
+                &mut self.notices,
+            )
         {
             // Nobody is left to be told in the window.
             log::error!("{error}");
@@ -572,6 +348,7 @@ impl Drop for App {
             selection: std::mem::take(&mut self.selection),
             registry: std::mem::take(&mut self.registry),
             layout: std::mem::replace(&mut self.layout, Layout::empty(egui::Id::unique("left"))),
+            preferences: std::mem::take(&mut self.preferences),
             notices: std::mem::take(&mut self.notices),
             has_dialogs: self.has_dialogs,
         });

@@ -1,5 +1,7 @@
 //! What the studio itself can be asked for, and all commands of all plugins.
 
+use std::borrow::Cow;
+
 use eframe::egui::{Key, KeyboardShortcut, Modifiers};
 use studio_plugin::{Command, Registry};
 
@@ -37,6 +39,10 @@ pub(super) enum Action {
     ResetLayout,
     Larger,
     Smaller,
+    Settings,
+    Guide,
+    FirstSteps,
+    About,
 }
 
 const fn own(
@@ -51,7 +57,7 @@ const fn own(
 }
 
 /// All of them, in the order of the menus. A command is one line here and one arm where it is run.
-pub(super) const OWN: [Own; 14] = [
+pub(super) const OWN: [Own; 18] = [
     own(Action::New, texts::FILE_MENU, "new", "New project", "Begins with the bundled shirt", key(Key::N)),
     own(
         Action::Open,
@@ -97,8 +103,22 @@ pub(super) const OWN: [Own; 14] = [
         "Finds a command by its name",
         key(Key::P),
     ),
-    own(Action::Theme, texts::WINDOW_MENU, "theme", "Light or dark", "Changes the window's theme", None),
-    own(Action::ResetLayout, texts::WINDOW_MENU, "reset-layout", "Reset layout", "Puts all panes back", None),
+    own(
+        Action::Theme,
+        texts::WINDOW_MENU,
+        "theme",
+        "Light or dark",
+        "Changes the window's theme",
+        shift(Key::L),
+    ),
+    own(
+        Action::ResetLayout,
+        texts::WINDOW_MENU,
+        "reset-layout",
+        "Reset layout",
+        "Puts all panes back",
+        shift(Key::R),
+    ),
     own(
         Action::Larger,
         texts::WINDOW_MENU,
@@ -115,6 +135,38 @@ pub(super) const OWN: [Own; 14] = [
         "Makes the whole interface smaller",
         key(Key::Minus),
     ),
+    own(
+        Action::Settings,
+        texts::WINDOW_MENU,
+        "settings",
+        texts::SETTINGS,
+        "Theme, text size, shortcuts, layouts",
+        key(Key::Comma),
+    ),
+    own(
+        Action::Guide,
+        texts::HELP_MENU,
+        "guide",
+        texts::GUIDE,
+        "How everything is done",
+        Some(KeyboardShortcut::new(Modifiers::NONE, Key::F1)),
+    ),
+    own(
+        Action::FirstSteps,
+        texts::HELP_MENU,
+        "first-steps",
+        texts::FIRST_STEPS,
+        "Three things to try",
+        Some(KeyboardShortcut::new(Modifiers::SHIFT, Key::F1)),
+    ),
+    own(
+        Action::About,
+        texts::HELP_MENU,
+        "about",
+        texts::ABOUT,
+        "The version, and the licences of all that it is made of",
+        Some(KeyboardShortcut::new(Modifiers::COMMAND, Key::F1)),
+    ),
 ];
 
 /// A command of the studio or of a plugin, a pane to be brought forward, or a project to be opened again.
@@ -125,6 +177,11 @@ pub(super) enum Wanted {
         plugin: &'static str,
         command: &'static str,
     },
+    /// Chooses a tool; chosen again, it is put away.
+    Tool {
+        plugin: &'static str,
+        tool: &'static str,
+    },
     Pane {
         plugin: &'static str,
         pane: &'static str,
@@ -133,21 +190,58 @@ pub(super) enum Wanted {
     Recent(usize),
 }
 
-/// Every command there is: the studio's, then the plugins', each with whose it is.
-pub(super) fn all(registry: &Registry) -> Vec<(&'static str, Command, Wanted)> {
-    let own = OWN.iter().map(|own| (own.menu, own.command, Wanted::Own(own.action)));
-    let plugins = registry.plugins().iter().filter(|plugin| !plugin.is_off()).flat_map(|plugin| {
-        let (id, name) = (plugin.plugin().id(), plugin.plugin().name());
-        let wanted = move |command: Command| Wanted::Plugin { plugin: id, command: command.id };
-        plugin.plugin().commands().into_iter().map(move |command| (name, command, wanted(command)))
+/// A command as menus, palette and keys have it.
+#[derive(Debug, Clone)]
+pub(super) struct Offered {
+    /// Whose it is: the name of a menu.
+    pub(super) of: &'static str,
+    /// Unique among all: settings keep its shortcut by it.
+    pub(super) key: Cow<'static, str>,
+    /// With the shortcut that the person gave it.
+    pub(super) command: Command,
+    pub(super) wanted: Wanted,
+}
+
+/// Every command there is, with the shortcuts it comes with: the studio's, then the plugins', then one for each pane.
+pub(super) fn all(registry: &Registry) -> Vec<Offered> {
+    let own = OWN.iter().map(|own| Offered {
+        of: own.menu,
+        key: own.command.id.into(),
+        command: own.command,
+        wanted: Wanted::Own(own.action),
     });
-    let panes = registry.plugins().iter().filter(|plugin| !plugin.is_off()).flat_map(|plugin| {
-        let id = plugin.plugin().id();
-        plugin.plugin().panes().into_iter().map(move |pane| {
-            let tooltip = "Brings this pane forward";
-            let command = Command { id: pane.id, name: pane.title, tooltip, shortcut: None };
-            (texts::WINDOW_MENU, command, Wanted::Pane { plugin: id, pane: pane.id })
+    let on = || registry.plugins().iter().filter(|plugin| !plugin.is_off()).map(|it| it.plugin());
+    let plugins = on().flat_map(|plugin| {
+        let (id, name) = (plugin.id(), plugin.name());
+        plugin.commands().into_iter().map(move |command| Offered {
+            of: name,
+            key: format!("{id}/{}", command.id).into(),
+            command,
+            wanted: Wanted::Plugin { plugin: id, command: command.id },
         })
     });
-    own.chain(plugins).chain(panes).collect()
+    let tools = on().flat_map(|plugin| {
+        let (id, name) = (plugin.id(), plugin.name());
+        plugin.tools().into_iter().map(move |command| Offered {
+            of: name,
+            key: format!("tool/{id}/{}", command.id).into(),
+            command,
+            wanted: Wanted::Tool { plugin: id, tool: command.id },
+        })
+    });
+    let panes = on().flat_map(|plugin| {
+        let id = plugin.id();
+        plugin.panes().into_iter().map(move |pane| Offered {
+            of: texts::WINDOW_MENU,
+            key: format!("pane/{id}/{}", pane.id).into(),
+            command: Command {
+                id: pane.id,
+                name: pane.title,
+                tooltip: "Brings this pane forward",
+                shortcut: None,
+            },
+            wanted: Wanted::Pane { plugin: id, pane: pane.id },
+        })
+    });
+    own.chain(plugins).chain(tools).chain(panes).collect()
 }

@@ -13,6 +13,7 @@ use studio_plugin::{Notices, Registry, Selection};
 
 use super::desk::Desk;
 use super::dock::Layout;
+use super::settings::Preferences;
 
 /// A device that lasted for less than this is no better than none.
 const SHORT: Duration = Duration::from_secs(10);
@@ -30,6 +31,7 @@ pub(super) struct Kept {
     pub(super) selection: Selection,
     pub(super) registry: Registry,
     pub(super) layout: Layout,
+    pub(super) preferences: Preferences,
     pub(super) notices: Notices,
     pub(super) has_dialogs: bool,
 }

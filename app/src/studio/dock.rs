@@ -40,7 +40,7 @@ pub(super) fn initial(registry: &Registry) -> Layout {
     columns.extend(tabs(&mut tiles, left));
     columns.push(middle);
     columns.extend(tabs(&mut tiles, right));
-    let shares: &[f32] = if columns.len() == 3 { &[1.0, 3.4, 1.1] } else { &[3.4, 1.1] };
+    let shares: &[f32] = if columns.len() == 3 { &[1.25, 3.2, 1.1] } else { &[3.4, 1.1] };
     let root = shared(&mut tiles, LinearDir::Horizontal, columns, shares);
     Tree::new(egui::Id::unique("layout"), root, tiles)
 }
@@ -70,6 +70,11 @@ pub(super) fn bring_forward(layout: &mut Layout, wanted: &Pane) {
     layout.make_active(|_, tile| matches!(tile, Tile::Pane(pane) if pane == wanted));
 }
 
+/// What is around a pane.
+pub(super) fn pane_frame(tokens: Tokens) -> egui::Frame {
+    egui::Frame::new().fill(tokens.surface).inner_margin(2.0 * STEP)
+}
+
 /// Shows the panes through `show`.
 pub(super) struct Behavior<'a> {
     pub(super) tokens: Tokens,
@@ -82,8 +87,7 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
         if *pane == Pane::Viewport {
             (self.show)(pane, ui);
         } else {
-            let frame = egui::Frame::new().fill(self.tokens.surface).inner_margin(2.0 * STEP);
-            frame.show(ui, |ui| {
+            pane_frame(self.tokens).show(ui, |ui| {
                 egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| (self.show)(pane, ui));
             });
         }

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use eframe::egui;
 use studio_plugin::Command;
 
-use super::commands::Wanted;
+use super::commands::{Offered, Wanted};
 use super::texts;
 use super::theme::Tokens;
 
 /// What the menus show.
 pub(super) struct Menu<'a> {
-    pub(super) commands: &'a [(&'static str, Command, Wanted)],
+    pub(super) commands: &'a [Offered],
     pub(super) can_run: &'a dyn Fn(Wanted) -> bool,
     /// What undo would take back, and redo do again.
     pub(super) undo: Option<&'a str>,
@@ -29,21 +29,21 @@ impl Menu<'_> {
         let mut chosen = None;
         let mut names: Vec<&'static str> =
             vec![texts::FILE_MENU, texts::EDIT_MENU, texts::SELECT_MENU, texts::VIEW_MENU];
-        let others = self.commands.iter().map(|(menu, ..)| *menu);
-        for name in others.filter(|name| *name != texts::WINDOW_MENU) {
+        let last = [texts::WINDOW_MENU, texts::HELP_MENU];
+        for name in self.commands.iter().map(|it| it.of).filter(|name| !last.contains(name)) {
             if !names.contains(&name) {
                 names.push(name);
             }
         }
-        names.push(texts::WINDOW_MENU);
+        names.extend(last);
         egui::MenuBar::new().ui(ui, |ui| {
             for name in names {
-                let commands: Vec<_> = self.commands.iter().filter(|(menu, ..)| *menu == name).collect();
+                let commands: Vec<_> = self.commands.iter().filter(|it| it.of == name).collect();
                 if commands.is_empty() {
                     continue;
                 }
                 ui.menu_button(name, |ui| {
-                    for (_, command, wanted) in commands {
+                    for Offered { command, wanted, .. } in commands {
                         if self.entry(ui, command, *wanted).clicked() {
                             chosen = Some(*wanted);
                             ui.close();

@@ -6,6 +6,7 @@ mod desk;
 mod device_loss;
 mod dock;
 mod files;
+mod help;
 mod menu;
 mod milestones;
 mod palette;
@@ -13,10 +14,14 @@ mod panes;
 mod path_field;
 mod questions;
 mod settings;
+mod settings_page;
+mod shortcuts;
 mod stager;
 mod texts;
 mod theme;
+mod thumbnail;
 mod toasts;
+mod welcome;
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::PathBuf;
@@ -174,6 +179,12 @@ impl Studio {
     }
 }
 
+/// The program's icon. A window does without, if it cannot be decoded.
+fn icon() -> egui::IconData {
+    eframe::icon_data::from_png_bytes(include_bytes!("../../../assets/desktop/amc-studio.png"))
+        .unwrap_or_default()
+}
+
 /// One window, until it is closed.
 fn open_window(
     create: impl FnOnce(&eframe::CreationContext<'_>) -> Option<App> + 'static,
@@ -181,6 +192,7 @@ fn open_window(
     let viewport = egui::ViewportBuilder::default()
         .with_title(texts::PROGRAM)
         .with_app_id("amc-studio")
+        .with_icon(icon())
         .with_inner_size([1440.0, 900.0])
         .with_min_inner_size([640.0, 420.0]);
     // Dithering would change the colours that are judged.

@@ -1,9 +1,8 @@
 //! The command palette: type a few letters, press Enter.
 
 use eframe::egui::{self, Key, Modifiers};
-use studio_plugin::Command;
 
-use super::commands::Wanted;
+use super::commands::{Offered, Wanted};
 use super::texts;
 use super::theme::{STEP, Tokens};
 
@@ -37,19 +36,13 @@ impl Palette {
     }
 
     /// Shows it while it is open; gives what was chosen.
-    pub(super) fn show(
-        &mut self,
-        ui: &egui::Ui,
-        commands: &[(&'static str, Command, Wanted)],
-    ) -> Option<Wanted> {
+    pub(super) fn show(&mut self, ui: &egui::Ui, commands: &[Offered]) -> Option<Wanted> {
         if !self.open {
             return None;
         }
         let mut found: Vec<_> = commands
             .iter()
-            .filter_map(|(of, command, wanted)| {
-                Some((distance(&self.query, command.name)?, of, command, wanted))
-            })
+            .filter_map(|offered| Some((distance(&self.query, offered.command.name)?, offered)))
             .collect();
         found.sort_by_key(|(distance, ..)| *distance);
         found.truncate(MOST);
@@ -79,12 +72,12 @@ impl Palette {
             if found.is_empty() {
                 ui.weak(texts::PALETTE_NOTHING);
             }
-            for (index, (_, of, command, _)) in found.iter().enumerate() {
+            for (index, (_, Offered { of, command, .. })) in found.iter().enumerate() {
                 let shortcut =
                     command.shortcut.map(|shortcut| ui.format_shortcut(&shortcut)).unwrap_or_default();
                 let chosen = index == self.chosen;
                 let weak = if chosen { tokens.on_accent } else { tokens.text_weak };
-                let text = egui::RichText::new(**of).color(weak);
+                let text = egui::RichText::new(*of).color(weak);
                 let button = egui::Button::selectable(chosen, (command.name, text))
                     .right_text(egui::RichText::new(shortcut).color(weak))
                     .min_size(egui::vec2(ui.available_width(), 0.0));
@@ -93,7 +86,7 @@ impl Palette {
                 }
             }
         });
-        let wanted = taken.and_then(|index| found.get(index)).map(|(.., wanted)| **wanted);
+        let wanted = taken.and_then(|index| found.get(index)).map(|(_, offered)| offered.wanted);
         if wanted.is_some() || shown.should_close() {
             *self = Self::default();
         }

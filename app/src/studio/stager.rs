@@ -9,9 +9,11 @@ use amc_core::amc::Amc;
 use amc_core::direction::{self, Direction};
 use amc_core::mesh::{Garment, Picker, Unit};
 use amc_core::render::{Cloth, Drawing};
+use eframe::egui::ColorImage;
 use studio_plugin::document::{Asset, FabricId, Project};
-use studio_plugin::{Job, Jobs, Notices, Stage};
+use studio_plugin::{Job, Jobs, Notices, Registry, Stage};
 
+use super::thumbnail;
 use crate::scene::{load_fabric, load_garment, vertex_occlusion};
 
 /// Keeps what is drawn in step with the document.
@@ -25,7 +27,7 @@ pub(super) struct Stager {
     garment: Loading<Asset, Loaded>,
     /// What darkens the folds takes longest, and comes when the garment is seen already.
     shaded: Option<Job<Arc<Drawing>>>,
-    fabrics: BTreeMap<FabricId, Loading<Asset, Arc<Amc>>>,
+    fabrics: BTreeMap<FabricId, Loading<Asset, (Arc<Amc>, ColorImage)>>,
     loaded: Option<Loaded>,
 }
 
@@ -59,6 +61,7 @@ struct Loaded {
     /// All panels plain: what the drawings of it share.
     plain: Arc<Drawing>,
     picker: Arc<Picker>,
+    pieces: Vec<Arc<ColorImage>>,
 }
 
 /// Everything a drawing follows from: equal recipes make equal drawings.
@@ -78,6 +81,14 @@ impl PartialEq for Recipe {
 }
 
 impl Stager {
+    /// With the shading modes of the studio and of all plugins.
+    pub(super) fn new(registry: &Registry) -> Self {
+        let mut stager = Self::default();
+        let own = registry.plugins().iter().flat_map(|plugin| plugin.plugin().shading_modes());
+        stager.stage.modes.extend(own);
+        stager
+    }
+
     /// Starts what is to be done and takes in what is done. To be called once a frame.
     pub(super) fn update(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
         self.update_garment(project, jobs, notices);
@@ -110,6 +121,7 @@ impl Stager {
                         notices.note(notice);
                     }
                     self.stage.garment = Some(Arc::clone(&loaded.garment));
+                    self.stage.pieces.clone_from(&loaded.pieces);
                     self.loaded = Some(loaded);
                 }
                 Err(error) => notices.failed(error),
@@ -129,20 +141,24 @@ impl Stager {
         let wanted: BTreeSet<FabricId> = project.fabrics.iter().map(|fabric| fabric.id).collect();
         self.fabrics.retain(|id, _| wanted.contains(id));
         self.stage.fabrics.retain(|id, _| wanted.contains(id));
+        self.stage.swatches.retain(|id, _| wanted.contains(id));
         for fabric in &project.fabrics {
             let loading = self.fabrics.entry(fabric.id).or_default();
             if loading.wanted.as_ref() != Some(&fabric.asset) {
                 let asset = fabric.asset.clone();
                 loading.wanted = Some(asset.clone());
                 loading.job = Some(jobs.start(format!("Opening {}", fabric.name), move |progress| {
-                    load_fabric(&path(&asset), progress).map(Arc::new)
+                    let amc = load_fabric(&path(&asset), progress)?;
+                    let ball = thumbnail::ball(&amc);
+                    Ok((Arc::new(amc), ball))
                 }));
             }
             if let Some(result) = loading.job.as_ref().and_then(Job::poll) {
                 loading.job = None;
                 match result {
-                    Ok(amc) => {
+                    Ok((amc, ball)) => {
                         self.stage.fabrics.insert(fabric.id, amc);
+                        self.stage.swatches.insert(fabric.id, Arc::new(ball));
                     }
                     Err(error) => notices.failed(error),
                 }
@@ -200,7 +216,10 @@ impl Loaded {
         let tangents = garment.normals.clone();
         let plain = Drawing::new(&garment, tangents, None, Vec::new(), |_| Cloth::Plain)?;
         let picker = Picker::new(&plain)?;
-        Ok(Self { garment: Arc::new(garment), plain: Arc::new(plain), picker: Arc::new(picker) })
+        let piece = |panel| Arc::new(thumbnail::piece(&garment, panel));
+        let pieces = garment.panels.iter().map(piece).collect();
+        let (garment, plain) = (Arc::new(garment), Arc::new(plain));
+        Ok(Self { garment, plain, picker: Arc::new(picker), pieces })
     }
 
     /// The plain drawing with the occlusion of every vertex.

@@ -69,6 +69,8 @@ impl Tokens {
 
 /// Tells egui of both themes.
 pub(super) fn apply(context: &egui::Context) {
+    // The studio has commands of its own for it, and remembers.
+    context.options_mut(|options| options.zoom_with_keyboard = false);
     for (theme, tokens) in [(Theme::Dark, DARK), (Theme::Light, LIGHT)] {
         context.style_mut_of(theme, |style| {
             style.text_styles = [

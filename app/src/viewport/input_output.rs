@@ -16,6 +16,8 @@ pub struct ViewportInput<'a> {
     pub hovered: Option<usize>,
     /// Panels that are not there. To isolate some, hide all others.
     pub hidden: &'a BTreeSet<usize>,
+    /// How the garment is shaded.
+    pub shading: Shading,
     /// The other look of a split view, right of its divider: this shading, of the drawing given to
     /// [`super::Viewport::set_compared`] or else of the same one. None: the view is not split.
     pub compared: Option<Shading>,

@@ -281,7 +281,7 @@ impl Viewport {
         };
         let blitter = self.blitter.insert(blitter);
         let mut tools = Tools { gpu: &self.gpu, renderer: &mut self.renderer, blitter };
-        let shadings = [Some(settings.shading()), input.compared.clone()];
+        let shadings = [Some(input.shading.clone()), input.compared.clone()];
         let halves = self.split.halves(at.rect, input.compared.is_some());
         for (side, (canvas, shading)) in self.canvases.iter_mut().zip(shadings).enumerate() {
             let Some(shading) = shading else { continue };

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::{Command, Context};
+use crate::{Command, Context, Hand, ShadingChoice, ViewportView};
 
 /// Where a pane is put until the person puts it elsewhere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,6 +39,9 @@ pub struct Importer {
 
 /// A part of the studio that can be added or left out. Every method but the first two has a default.
 ///
+/// State that belongs to the project goes into it by [`crate::document::Edit::SetPluginState`], and so can be undone; state
+/// that belongs to the person is kept by [`Plugin::settings`].
+///
 /// No method may take longer than a share of a frame: long work goes to [`Context::jobs`]. One that panics switches its
 /// plugin off, with a notice; the rest of the studio goes on.
 pub trait Plugin {
@@ -60,6 +63,23 @@ pub trait Plugin {
 
     /// Runs a command of [`Plugin::commands`].
     fn run(&mut self, _command: &str, _studio: &mut Context<'_>) {}
+
+    /// Its tools: commands that choose what the left button does in the viewport, until another tool is chosen or Escape
+    /// puts it away.
+    fn tools(&self) -> Vec<Command> {
+        Vec::new()
+    }
+
+    /// Called in every frame while a tool of [`Plugin::tools`] is chosen.
+    fn use_tool(&mut self, _tool: &str, _hand: &Hand<'_>, _studio: &mut Context<'_>) {}
+
+    /// Paints over the garment; called in every frame that is drawn.
+    fn overlay(&mut self, _painter: &egui::Painter, _view: &ViewportView<'_>, _studio: &mut Context<'_>) {}
+
+    /// Its shading modes.
+    fn shading_modes(&self) -> Vec<ShadingChoice> {
+        Vec::new()
+    }
 
     /// Its panes.
     fn panes(&self) -> Vec<Pane> {

@@ -3,7 +3,6 @@
 use std::time::{Duration, Instant};
 
 use eframe::egui::{Pos2, Rect};
-use studio_tests::display::SIZE;
 use x11rb::connection::Connection as _;
 use x11rb::protocol::xproto::{ConnectionExt as _, ImageFormat, InputFocus, MapState, Window};
 use x11rb::protocol::xtest::ConnectionExt as _;
@@ -11,6 +10,12 @@ use x11rb::rust_connection::RustConnection;
 
 /// How long anything may take before it counts as hung.
 pub(super) const PATIENCE: Duration = Duration::from_secs(120);
+
+/// A person does not move the pointer and press within one frame, however slow the frame.
+const PACE: Duration = Duration::from_millis(500);
+
+/// What has not changed for so long is done: longer than a job takes that draws anew.
+const STEADY: Duration = Duration::from_millis(1200);
 
 /// X's numbers of events and keys.
 const KEY_PRESS: u8 = 2;
@@ -80,11 +85,10 @@ impl Person {
         keys.iter().rev().for_each(|&key| self.event(KEY_RELEASE, key, [0, 0]));
     }
 
-    /// Moves the pointer, and waits for what that does: all that comes within one frame is taken to be at one place.
+    /// Moves the pointer, and gives the window time: all that comes within one frame is taken to be at one place.
     pub(super) fn point(&self, at: Pos2) {
         self.event(MOTION, 0, [at.x as i16, at.y as i16]);
-        let [width, height] = SIZE.map(f32::from);
-        self.sees("a window at rest", Rect::from_min_max(Pos2::ZERO, Pos2::new(width, height)), None);
+        std::thread::sleep(PACE);
     }
 
     pub(super) fn click(&self, at: Pos2) {
@@ -102,17 +106,22 @@ impl Person {
         Sight(image.unwrap().reply().unwrap().data)
     }
 
-    /// What is seen once it no longer changes, and is not `before`.
+    /// What is seen once it has not changed for a while, and is not `before`.
     pub(super) fn sees(&self, what: &str, rect: Rect, before: Option<&Sight>) -> Sight {
-        let mut last = self.look(rect);
+        let (mut last, mut since) = (self.look(rect), Instant::now());
         until(what, || {
-            std::thread::sleep(Duration::from_millis(250));
             let now = self.look(rect);
-            let is_it = now == last && before != Some(&now);
-            last = now;
-            is_it
+            if now != last {
+                (last, since) = (now, Instant::now());
+            }
+            since.elapsed() > STEADY && before != Some(&last)
         });
         last
+    }
+
+    /// Waits until something else is seen than before.
+    pub(super) fn sees_other(&self, what: &str, rect: Rect, before: &Sight) {
+        until(what, || self.look(rect) != *before);
     }
 
     /// Waits until exactly this is seen.

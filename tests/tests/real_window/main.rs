@@ -117,7 +117,8 @@ fn a_garment_is_dressed_saved_and_seen_again() {
 
     // There are no dialogs here: a path is offered, and taken as it is.
     person.press(&[CONTROL], u32::from(b's'));
-    person.sees("the question for a path", view, Some(&split));
+    person.sees_other("the question for a path", view, &split);
+    person.point(aside);
     person.press(&[], ENTER);
     let project = || {
         let mut files = std::fs::read_dir(home.path()).unwrap().flatten().map(|entry| entry.path());

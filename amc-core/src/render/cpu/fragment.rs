@@ -42,6 +42,10 @@ impl Paint {
             (Mode::Normals, _) => Ok(Self::Normals),
             (Mode::Tangents, _) => Ok(Self::Tangents),
             (Mode::Uv, _) => Ok(Self::Uv),
+            (Mode::Own(own), _) => Err(Error::unsupported(format!(
+                "the shading mode '{}' is drawn by a graphics device only: choose another mode, or the renderer 'gpu'",
+                own.name
+            ))),
             (Mode::Amc | Mode::Isotropic | Mode::MatCap(_), Cloth::Plain) => Ok(Self::Plain),
             (_, Cloth::Fabric(index)) => {
                 let paint = per_fabric.get(*index).cloned().flatten();
@@ -64,7 +68,7 @@ impl Paint {
             Mode::Amc => Ok(Some(Self::Table(Arc::new(fabric.to_linear())))),
             Mode::Isotropic => picture(&fabric.isotropic()).map(Some),
             Mode::MatCap(_) => Ok(matcap.clone()),
-            Mode::Normals | Mode::Tangents | Mode::Uv => Ok(None),
+            Mode::Normals | Mode::Tangents | Mode::Uv | Mode::Own(_) => Ok(None),
         };
         drawing.fabrics.par_iter().enumerate().map(of_fabric).collect()
     }

@@ -18,19 +18,25 @@ pub enum LooksUp {
 pub struct ShadingMode {
     /// The shader's name.
     pub shader: &'static str,
+    /// Its text, where it comes from outside; none: the sources have it.
+    pub text: Option<&'static str>,
     /// What it reads at group 1.
     pub looks_up: LooksUp,
 }
 
-const AMC: ShadingMode = ShadingMode { shader: "mode_amc", looks_up: LooksUp::Table };
-const BALL: ShadingMode = ShadingMode { shader: "mode_ball", looks_up: LooksUp::Ball };
-const PLAIN: ShadingMode = ShadingMode { shader: "mode_plain", looks_up: LooksUp::Nothing };
-const NORMALS: ShadingMode = ShadingMode { shader: "mode_normals", looks_up: LooksUp::Nothing };
-const TANGENTS: ShadingMode = ShadingMode { shader: "mode_tangents", looks_up: LooksUp::Nothing };
-const UV: ShadingMode = ShadingMode { shader: "mode_uv", looks_up: LooksUp::Nothing };
+const AMC: ShadingMode = built_in("mode_amc", LooksUp::Table);
+const BALL: ShadingMode = built_in("mode_ball", LooksUp::Ball);
+const PLAIN: ShadingMode = built_in("mode_plain", LooksUp::Nothing);
+const NORMALS: ShadingMode = built_in("mode_normals", LooksUp::Nothing);
+const TANGENTS: ShadingMode = built_in("mode_tangents", LooksUp::Nothing);
+const UV: ShadingMode = built_in("mode_uv", LooksUp::Nothing);
+
+const fn built_in(shader: &'static str, looks_up: LooksUp) -> ShadingMode {
+    ShadingMode { shader, text: None, looks_up }
+}
 
 /// Not a shading of cloth: panels as marks ([`super::Renderer::mark_data`]).
-pub(super) const MARK: ShadingMode = ShadingMode { shader: "mark", looks_up: LooksUp::Nothing };
+pub(super) const MARK: ShadingMode = built_in("mark", LooksUp::Nothing);
 
 /// All shadings of cloth.
 pub static MODES: &[ShadingMode] = &[AMC, BALL, PLAIN, NORMALS, TANGENTS, UV];
@@ -42,6 +48,12 @@ impl ShadingMode {
             (Mode::Normals, _) => NORMALS,
             (Mode::Tangents, _) => TANGENTS,
             (Mode::Uv, _) => UV,
+            (Mode::Own(own), Cloth::Plain) if own.reads_fabric => PLAIN,
+            (Mode::Own(own), _) => Self {
+                shader: own.name,
+                text: Some(own.text),
+                looks_up: if own.reads_fabric { LooksUp::Table } else { LooksUp::Nothing },
+            },
             (Mode::Amc | Mode::Isotropic | Mode::MatCap(_), Cloth::Plain) => PLAIN,
             (Mode::Amc, Cloth::Fabric(_)) => AMC,
             (Mode::Isotropic | Mode::MatCap(_), Cloth::Fabric(_)) => BALL,

@@ -81,7 +81,7 @@ struct Module {
 #[derive(Debug)]
 pub(super) struct Pipelines {
     sources: Sources,
-    modules: HashMap<&'static str, Module>,
+    modules: HashMap<ShadingMode, Module>,
     pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
 }
 
@@ -109,10 +109,10 @@ impl Pipelines {
                 key.target.samples
             )));
         }
-        let module = match self.modules.entry(key.mode.shader) {
+        let module = match self.modules.entry(key.mode) {
             std::collections::hash_map::Entry::Occupied(known) => known.into_mut(),
             std::collections::hash_map::Entry::Vacant(place) => {
-                place.insert(compile(device, &self.sources, key.mode.shader)?)
+                place.insert(compile(device, &self.sources, key.mode)?)
             }
         };
         let what = format!("the pipeline of {}", key.mode.shader);
@@ -122,8 +122,12 @@ impl Pipelines {
     }
 }
 
-fn compile(device: &wgpu::Device, sources: &Sources, name: &str) -> Result<Module> {
-    let checked_shader = validate(sources, name)?;
+fn compile(device: &wgpu::Device, sources: &Sources, mode: ShadingMode) -> Result<Module> {
+    let name = mode.shader;
+    let checked_shader = match mode.text {
+        Some(text) => validate(&sources.with(name, text)?, name)?,
+        None => validate(sources, name)?,
+    };
     let text = checked_shader.composition().text().to_owned();
     let module = checked(device, &format!("the shader {name}"), || {
         device.create_shader_module(wgpu::ShaderModuleDescriptor {

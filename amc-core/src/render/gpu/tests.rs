@@ -9,7 +9,9 @@ use super::*;
 use crate::amc::{Amc, Frame, Symmetry, TableSize, Texels};
 use crate::color::srgb_from_linear;
 use crate::image::Picture;
-use crate::render::{Cloth, Cyclic, Draw, Drawing, Mode, Perspective, Projection, Shading, Vertex, View};
+use crate::render::{
+    Cloth, Cyclic, Draw, Drawing, Mode, OwnMode, Perspective, Projection, Shading, Vertex, View,
+};
 use crate::view_space::Azimuth;
 
 const SIDE: u32 = 8;
@@ -40,6 +42,7 @@ on_opengl!(
     the_full_turn_takes_the_line_of_sight_to_the_middle,
     the_half_turn_takes_the_half_vector_to_the_middle,
     normals_tangents_and_uvs_come_out_as_encoded_values,
+    a_mode_from_outside_is_drawn_and_its_faults_are_told_by_line,
     a_target_without_srgb_gets_encoded_values,
     a_changed_direction_uploads_only_what_changed,
     impossible_requests_are_refused,
@@ -308,6 +311,25 @@ fn normals_tangents_and_uvs_come_out_as_encoded_values(gpu: &Gpu) {
     assert_near(encoded(Mode::Tangents), [0.9, 0.8, 0.5], 0.002);
     // The pixel right and below of the middle has its centre at (1/16, -1/16): an odd square.
     assert_near(encoded(Mode::Uv), [0.0625, 0.9375, 0.75], 0.002);
+}
+
+fn a_mode_from_outside_is_drawn_and_its_faults_are_told_by_line(gpu: &Gpu) {
+    let own = |text, reads_fabric| Mode::Own(OwnMode { name: "own", text, reads_fabric });
+    let mut drawing = square(-1.0, 1.0, Vec3::Z, Vec3::X);
+    drawing.fabrics = vec![table(Symmetry::One, Azimuth::Transported, |_, _| [0.5, 0.25, 1.0])];
+    let flat = "#import color\n#import surface\n@fragment\n\
+                fn fragment_main(surface: Surface) -> @location(0) vec4<f32> {\n\
+                return opaque(vec3<f32>(0.25, 0.5, surface.uv.x * 0.0)); }";
+    assert_near(middle(gpu, &drawing, &view(), &shading(own(flat, false))), [0.25, 0.5, 0.0], 0.002);
+    let half = "#import color\n#import surface\n#import table\n@fragment\n\
+                fn fragment_main(surface: Surface) -> @location(0) vec4<f32> {\n\
+                return opaque(look_up(vec2<f32>(0.0), 0.0) / 2.0); }";
+    assert_near(middle(gpu, &drawing, &view(), &shading(own(half, true))), [0.25, 0.125, 0.5], 0.002);
+    let fault = render_picture(gpu, &drawing, &view(), &shading(own("#import color\nfn", false)));
+    assert!(fault.unwrap_err().to_string().contains("own.wgsl"));
+    let taken = Mode::Own(OwnMode { name: "mode_uv", text: flat, reads_fabric: false });
+    let fault = render_picture(gpu, &drawing, &view(), &shading(taken));
+    assert!(fault.unwrap_err().to_string().contains("mode_uv"));
 }
 
 fn a_target_without_srgb_gets_encoded_values(gpu: &Gpu) {

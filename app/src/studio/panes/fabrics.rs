@@ -8,8 +8,13 @@ use studio_plugin::document::{Asset, Edit, FabricId, FabricInUse};
 use studio_plugin::{Context, Importer, Pane, Place, Plugin};
 
 use crate::studio::theme::STEP;
+use crate::studio::thumbnail::Textures;
 
-pub(super) struct Fabrics;
+/// The list, and the textures of its balls.
+#[derive(Default)]
+pub(super) struct Fabrics {
+    textures: Textures,
+}
 
 impl Plugin for Fabrics {
     fn id(&self) -> &'static str {
@@ -48,21 +53,35 @@ impl Plugin for Fabrics {
                 let size = amc.size();
                 format!("{0} x {0} x {1}, R = {2}", size.side(), size.slices(), amc.symmetry.order())
             });
-            if wide_button(ui, &fabric.name, &detail).clicked() {
-                wear(studio, fabric.id);
-            }
+            ui.horizontal(|ui| {
+                let (rect, _) = ui.allocate_exact_size(vec2(7.0 * STEP, 7.0 * STEP), egui::Sense::hover());
+                if let Some(ball) = studio.stage.swatches.get(&fabric.id) {
+                    let whole = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+                    ui.painter().image(self.textures.of(ui, ball), rect, whole, egui::Color32::WHITE);
+                }
+                if wide_button(ui, &fabric.name, &detail).clicked() {
+                    wear(studio, fabric.id);
+                }
+            });
         }
         ui.add_space(2.0 * STEP);
         ui.strong("With the program");
         for bundled in BUNDLED {
             let asset = Asset::Bundled(format!("fabric:{}", bundled.name));
             if !fabrics.iter().any(|fabric| fabric.asset == asset)
-                && wide_button(ui, bundled.name, "").clicked()
+                && wide_button(ui, &capitalised(bundled.name), "").clicked()
             {
-                put_on(studio, asset, bundled.name);
+                let name = capitalised(bundled.name);
+                put_on(studio, asset, &name);
             }
         }
     }
+}
+
+/// A name as a title: `Satin`.
+fn capitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
 }
 
 fn wide_button(ui: &mut egui::Ui, name: &str, detail: &str) -> egui::Response {

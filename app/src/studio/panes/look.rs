@@ -39,14 +39,8 @@ const COMPARE: Command = Command {
     shortcut: Some(KeyboardShortcut::new(Modifiers::NONE, Key::C)),
 };
 
-/// The shading modes: ids and names.
-const MODES: [(&str, &str); 5] = [
-    ("amc", "Cloth"),
-    ("isotropic", "Without direction"),
-    ("normals", "Normals"),
-    ("tangents", "Directions"),
-    ("uv", "Flat pattern"),
-];
+/// The background that the person begins with: middle grey.
+const BACKGROUND: [u8; 3] = [119; 3];
 
 /// Degrees per second of a garment that turns by itself.
 const TURNING_SPEED: f32 = 30.0;
@@ -97,14 +91,12 @@ impl Plugin for Look {
         egui::Grid::new("look").num_columns(2).show(ui, |ui| {
             angles(ui, &mut view);
             lens(ui, &mut view);
-            shading(ui, &mut view);
+            shading(ui, &mut view, studio);
         });
         ui.checkbox(&mut view.occlusion, "Darken the folds")
             .on_hover_text("Ambient occlusion of every vertex");
-        let mut turns = view.auto_turn.is_some();
-        if ui.checkbox(&mut turns, AUTO_TURN.name).on_hover_text(AUTO_TURN.tooltip).changed() {
-            view.auto_turn = turns.then_some(TURNING_SPEED);
-        }
+        background(ui, &mut view);
+        auto_turn(ui, &mut view);
         ui.add_space(2.0 * STEP);
         compare(ui, &mut view, studio);
         if view != *before {
@@ -154,8 +146,8 @@ fn lens(ui: &mut egui::Ui, view: &mut ViewSettings) {
         if perspective { Lens::Perspective { focal_length_mm: focal_length } } else { Lens::Orthographic };
 }
 
-fn shading(ui: &mut egui::Ui, view: &mut ViewSettings) {
-    let modes = MODES.map(|(id, name)| (id.to_owned(), name));
+fn shading(ui: &mut egui::Ui, view: &mut ViewSettings, studio: &Context<'_>) {
+    let modes: Vec<_> = studio.stage.modes.iter().map(|mode| (mode.id.to_owned(), mode.name)).collect();
     choice(ui, "Shading", &mut view.mode, &modes);
     choice(
         ui,
@@ -178,6 +170,37 @@ fn shading(ui: &mut egui::Ui, view: &mut ViewSettings) {
             (Perspective::Off, "Off"),
         ],
     );
+}
+
+/// A background of the view's own, in place of the window's colour and of transparency in pictures.
+fn background(ui: &mut egui::Ui, view: &mut ViewSettings) {
+    ui.horizontal(|ui| {
+        let mut own = view.background.is_some();
+        if ui.checkbox(&mut own, "Background").on_hover_text("Behind the garment, also in pictures").changed()
+        {
+            view.background = own.then_some(BACKGROUND);
+        }
+        if let Some(colour) = &mut view.background {
+            let picker = ui.color_edit_button_srgb(colour).on_hover_text("Its colour");
+            picker
+                .widget_info(|| egui::WidgetInfo::labeled(egui::Role::ColorWell, true, "Background colour"));
+        }
+    });
+}
+
+fn auto_turn(ui: &mut egui::Ui, view: &mut ViewSettings) {
+    ui.horizontal(|ui| {
+        let mut turns = view.auto_turn.is_some();
+        let label = ui.checkbox(&mut turns, AUTO_TURN.name).on_hover_text(AUTO_TURN.tooltip);
+        if label.changed() {
+            view.auto_turn = turns.then_some(TURNING_SPEED);
+        }
+        if let Some(speed) = &mut view.auto_turn {
+            let range = -ViewSettings::MOST_AUTO_TURN..=ViewSettings::MOST_AUTO_TURN;
+            let field = egui::DragValue::new(speed).range(range).speed(1.0).suffix("° per second");
+            ui.add(field).labelled_by(label.id).on_hover_text("Seen from above, counter-clockwise");
+        }
+    });
 }
 
 /// What a split view begins with: warp and weft swapped, which is what anisotropy is about.
@@ -204,7 +227,7 @@ fn compare(ui: &mut egui::Ui, view: &mut ViewSettings, studio: &Context<'_>) {
             .on_hover_text("All directions, counter-clockwise in the flat pattern");
         ui.end_row();
         let modes: Vec<_> = std::iter::once((None, "As on the left"))
-            .chain(MODES.into_iter().map(|(id, name)| (Some(id.to_owned()), name)))
+            .chain(studio.stage.modes.iter().map(|mode| (Some(mode.id.to_owned()), mode.name)))
             .collect();
         choice(ui, "Right: shading", &mut compared.mode, &modes);
     });

@@ -5,16 +5,18 @@ mod fabrics;
 mod history;
 mod inspector;
 mod look;
+mod notes;
 mod panels;
 
 use studio_plugin::Registry;
 
 /// Registers them, in the order of their tabs.
 pub(super) fn register(registry: &mut Registry) {
-    registry.register(panels::Panels);
-    registry.register(fabrics::Fabrics);
+    registry.register(panels::Panels::default());
+    registry.register(fabrics::Fabrics::default());
     registry.register(inspector::Inspector::default());
     registry.register(look::Look);
     registry.register(history::History);
+    registry.register(notes::Notes::default());
     registry.register(activity::Activity);
 }

@@ -1,12 +1,19 @@
 //! The garment's panels as a list: what each is made of, and whether it is shown.
 
+use amc_core::direction::Direction;
+use amc_core::mesh::{Garment, Panel};
 use eframe::egui::{self, RichText, Sense, vec2};
 use studio_plugin::document::Edit;
 use studio_plugin::{Command, Context, Pane, Place, Plugin};
 
 use crate::studio::theme::{STEP, Tokens};
+use crate::studio::thumbnail::Textures;
 
-pub(super) struct Panels;
+/// The list, and the textures of its thumbnails.
+#[derive(Default)]
+pub(super) struct Panels {
+    textures: Textures,
+}
 
 const HIDE: Command = Command {
     id: "hide",
@@ -67,44 +74,16 @@ impl Plugin for Panels {
             ui.weak("The garment is being opened.");
             return;
         };
-        let tokens = Tokens::of(ui);
         let mut hovered = None;
-        for panel in &garment.panels {
-            let look = studio.document.project().look_of(panel);
-            ui.horizontal(|ui| {
-                let mut visible = look.visible;
-                let eye = ui.checkbox(&mut visible, "").on_hover_text("Shown in the view");
-                eye.widget_info(|| {
-                    egui::WidgetInfo::selected(
-                        egui::Role::CheckBox,
-                        true,
-                        visible,
-                        format!("Show {}", panel.name),
-                    )
-                });
-                if eye.changed() {
-                    studio.submit(Edit::SetVisible { panels: vec![panel.id.clone()], visible });
-                }
-                let selected = studio.selection.panels.contains(&panel.id);
-                let fabric = look.fabric.and_then(|id| studio.document.project().fabric(id));
-                let weak = if selected { tokens.on_accent } else { tokens.text_weak };
-                let fabric =
-                    RichText::new(fabric.map_or("no fabric", |fabric| fabric.name.as_str())).color(weak);
-                let row = egui::Button::selectable(selected, panel.name.as_str())
-                    .right_text(fabric)
-                    .truncate()
-                    .min_size(vec2(ui.available_width(), 6.0 * STEP))
-                    .sense(Sense::click());
-                let row = ui.add(row);
-                if row.hovered() {
-                    hovered = Some(panel.id.clone());
-                }
-                if row.clicked() {
-                    let add = ui.input(|input| input.modifiers.command || input.modifiers.shift);
-                    studio.selection.click(&panel.id, add);
-                }
-                if panel.flags.mirrored || panel.flags.degenerate {
-                    row.on_hover_text(flags(panel.flags));
+        for (part, panels) in parts(&garment) {
+            if let [panel] = panels.as_slice() {
+                self.row(ui, studio, &garment, *panel, &mut hovered);
+                continue;
+            }
+            let title = format!("{part} ({})", panels.len());
+            egui::CollapsingHeader::new(title).id_salt(part).default_open(true).show(ui, |ui| {
+                for panel in panels {
+                    self.row(ui, studio, &garment, panel, &mut hovered);
                 }
             });
         }
@@ -112,6 +91,93 @@ impl Plugin for Panels {
             studio.selection.hovered = hovered;
         }
     }
+}
+
+impl Panels {
+    fn row(
+        &mut self,
+        ui: &mut egui::Ui,
+        studio: &mut Context<'_>,
+        garment: &Garment,
+        number: usize,
+        hovered: &mut Option<String>,
+    ) {
+        let panel = &garment.panels[number];
+        let look = studio.document.project().look_of(panel);
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = STEP;
+            show_box(ui, studio, panel, look.visible);
+            let direction = look.direction.unwrap_or_else(|| Direction::along_grain(panel));
+            self.thumbnail(ui, studio, number, look.fabric.map(|_| direction.angle));
+            let tokens = Tokens::of(ui);
+            let selected = studio.selection.panels.contains(&panel.id);
+            let weak = if selected { tokens.on_accent } else { tokens.text_weak };
+            let fabric = look.fabric.and_then(|id| studio.document.project().fabric(id));
+            let worn = fabric.map_or_else(
+                || "no fabric".to_owned(),
+                |fabric| format!("{}, {:.0}°", fabric.name, direction.angle.to_degrees()),
+            );
+            let mark = if panel.flags.mirrored || panel.flags.degenerate { " *" } else { "" };
+            let row = egui::Button::selectable(selected, format!("{}{mark}", panel.name))
+                .right_text(RichText::new(worn).color(weak))
+                .truncate()
+                .min_size(vec2(ui.available_width(), 6.0 * STEP))
+                .sense(Sense::click());
+            let row = ui.add(row);
+            if row.hovered() {
+                *hovered = Some(panel.id.clone());
+            }
+            if row.clicked() {
+                let add = ui.input(|input| input.modifiers.command || input.modifiers.shift);
+                studio.selection.click(&panel.id, add);
+            }
+            if !mark.is_empty() {
+                row.on_hover_text(flags(panel.flags));
+            }
+        });
+    }
+
+    /// The flat piece, and on it the direction of its warp, where it has one.
+    fn thumbnail(&mut self, ui: &mut egui::Ui, studio: &Context<'_>, number: usize, angle: Option<f32>) {
+        let tokens = Tokens::of(ui);
+        let (rect, _) = ui.allocate_exact_size(vec2(6.0 * STEP, 6.0 * STEP), Sense::hover());
+        if let Some(piece) = studio.stage.pieces.get(number) {
+            let texture = self.textures.of(ui, piece);
+            let whole = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+            ui.painter().image(texture, rect, whole, tokens.text_weak.gamma_multiply(0.6));
+        }
+        if let Some(angle) = angle {
+            let along = 1.8 * STEP * vec2(angle.cos(), -angle.sin());
+            ui.painter().arrow(rect.center() - along, 2.0 * along, egui::Stroke::new(1.0, tokens.accent));
+        }
+    }
+}
+
+fn show_box(ui: &mut egui::Ui, studio: &mut Context<'_>, panel: &Panel, mut visible: bool) {
+    let eye = ui.checkbox(&mut visible, "").on_hover_text("Shown in the view");
+    eye.widget_info(|| {
+        let label = format!("Show {}", panel.name);
+        egui::WidgetInfo::selected(egui::Role::CheckBox, true, visible, label)
+    });
+    if eye.changed() {
+        studio.submit(Edit::SetVisible { panels: vec![panel.id.clone()], visible });
+    }
+}
+
+/// Numbers of the panels, those of one part of the file together: `sleeve 1` and `sleeve 2` are of `sleeve`.
+fn parts(garment: &Garment) -> Vec<(&str, Vec<usize>)> {
+    let mut parts: Vec<(&str, Vec<usize>)> = Vec::new();
+    for (number, panel) in garment.panels.iter().enumerate() {
+        let part = match panel.name.rsplit_once(' ') {
+            Some((part, end)) if end.parse::<usize>().is_ok() => part,
+            _ => panel.name.as_str(),
+        };
+        match parts.iter_mut().find(|(known, _)| *known == part) {
+            Some((_, panels)) => panels.push(number),
+            None => parts.push((part, vec![number])),
+        }
+    }
+    parts
 }
 
 /// What is unusual about a panel's UVs, for people.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use amc_core::direction::Direction;
 use amc_core::{Error, Result};
+use serde_json::Value;
 
 use super::{Asset, FabricId, FabricInUse, PanelChoice, Project};
 
@@ -47,6 +48,15 @@ pub enum Edit {
     },
     /// The notes, whole.
     SetNotes(String),
+    /// What a plugin keeps with the project.
+    SetPluginState {
+        /// Its id.
+        plugin: String,
+        /// What the person did, for the history: "Paint a stroke".
+        what: String,
+        /// All that it keeps; null: nothing.
+        state: Value,
+    },
     /// Another asset in place of every use of a file: one that was moved, or is missing.
     Relocate {
         /// The file's path, as the project has it.
@@ -82,6 +92,12 @@ impl Edit {
                 choose(project, panels, |choice| choice.visible = visible)
             }
             Self::SetNotes(notes) => project.notes = notes,
+            Self::SetPluginState { plugin, state: Value::Null, .. } => {
+                project.plugins.remove(&plugin);
+            }
+            Self::SetPluginState { plugin, state, .. } => {
+                project.plugins.insert(plugin, state);
+            }
             Self::Relocate { old, new } => {
                 let mut uses = project.assets_mut().filter(|asset| asset.path() == Some(&old)).peekable();
                 if uses.peek().is_none() {

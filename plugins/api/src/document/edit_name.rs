@@ -29,6 +29,7 @@ impl Edit {
             Self::SetVisible { panels, visible: true } => format!("Show {}", counted(panels.len())),
             Self::SetVisible { panels, visible: false } => format!("Hide {}", counted(panels.len())),
             Self::SetNotes(_) => "Edit the notes".to_owned(),
+            Self::SetPluginState { what, .. } => what.clone(),
             Self::Relocate { old, .. } => format!("Locate {}", Asset::file(old.as_path()).name()),
         }
     }

@@ -290,6 +290,6 @@ fn next_number() -> u64 {
 }
 
 fn is_same_but_view(a: &Project, b: &Project) -> bool {
-    let Project { garment, fabrics, panels, view: _, notes } = a;
-    (garment, fabrics, panels, notes) == (&b.garment, &b.fabrics, &b.panels, &b.notes)
+    let Project { garment, fabrics, panels, plugins, view: _, notes } = a;
+    (garment, fabrics, panels, plugins, notes) == (&b.garment, &b.fabrics, &b.panels, &b.plugins, &b.notes)
 }

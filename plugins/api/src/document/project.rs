@@ -6,6 +6,7 @@ use amc_core::direction::{Direction, Field, Source};
 use amc_core::mesh::Panel;
 use amc_core::{Error, Result};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::{Asset, FabricId, FabricInUse, ViewSettings};
 
@@ -23,6 +24,9 @@ pub struct Project {
     pub panels: BTreeMap<String, PanelChoice>,
     /// How it is looked at.
     pub view: ViewSettings,
+    /// What plugins keep with the project, by their ids; at most [`Project::MOST_PLUGIN_STATE`] bytes each. That of plugins
+    /// which are not there is kept too.
+    pub plugins: BTreeMap<String, Value>,
     /// Whatever the person wrote down, at most [`Project::LONGEST_NOTES`] bytes.
     pub notes: String,
 }
@@ -67,6 +71,7 @@ impl Default for Project {
             garment: Asset::Bundled("garment:shirt".to_owned()),
             fabrics: vec![satin],
             panels: BTreeMap::new(),
+            plugins: BTreeMap::new(),
             view: ViewSettings::default(),
             notes: String::new(),
         }
@@ -79,6 +84,12 @@ impl Project {
 
     /// The most panels that may be listed.
     pub const MOST_PANELS: usize = 65_536;
+
+    /// The most plugins that may keep something.
+    pub const MOST_PLUGINS: usize = 256;
+
+    /// The most that a plugin may keep, bytes of JSON.
+    pub const MOST_PLUGIN_STATE: usize = 1 << 20;
 
     /// The longest notes, bytes.
     pub const LONGEST_NOTES: usize = 1 << 20;
@@ -145,6 +156,7 @@ impl Project {
         self.garment.check_garment().map_err(|error| error.at_element("garment"))?;
         self.check_fabrics()?;
         self.check_panels()?;
+        self.check_plugins()?;
         self.view.check()?;
         if self.notes.len() > Self::LONGEST_NOTES {
             return Err(Error::too_large(format!(
@@ -169,6 +181,21 @@ impl Project {
             if !ids.insert(fabric.id) {
                 let what = format!("another fabric has the id {} too", fabric.id.number());
                 return Err(place(Error::invalid(what)));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_plugins(&self) -> Result<()> {
+        if self.plugins.len() > Self::MOST_PLUGINS {
+            let what = format!("more than {} plugins keep something", Self::MOST_PLUGINS);
+            return Err(Error::too_large(what).at_element("plugins"));
+        }
+        for (plugin, state) in &self.plugins {
+            check_name(plugin, "the plugin's id").map_err(|error| error.at_element("plugins"))?;
+            if json_bytes(state) > Self::MOST_PLUGIN_STATE {
+                let what = format!("it keeps more than {} KiB", Self::MOST_PLUGIN_STATE >> 10);
+                return Err(Error::too_large(what).at_element(format!("plugins.{plugin}")));
             }
         }
         Ok(())
@@ -210,7 +237,20 @@ impl Project {
             + self.assets().map(asset).sum::<usize>()
             + fabrics.sum::<usize>()
             + panels.sum::<usize>()
+            + self.plugins.iter().map(|(id, state)| id.len() + json_bytes(state)).sum::<usize>()
             + self.notes.len()
+    }
+}
+
+/// About how long a value is as JSON, and how much memory it takes, bytes.
+fn json_bytes(value: &Value) -> usize {
+    match value {
+        Value::Null | Value::Bool(_) | Value::Number(_) => 16,
+        Value::String(text) => 16 + text.len(),
+        Value::Array(values) => 16 + values.iter().map(json_bytes).sum::<usize>(),
+        Value::Object(entries) => {
+            16 + entries.iter().map(|(key, value)| 16 + key.len() + json_bytes(value)).sum::<usize>()
+        }
     }
 }
 

@@ -101,7 +101,7 @@ pub struct ViewSettings {
     pub zoom: f32,
     /// How view space becomes the picture.
     pub lens: Lens,
-    /// The id of the shading mode; see [`ViewSettings::MODES`]. A plugin may add others.
+    /// The id of the shading mode ([`crate::ShadingChoice`]).
     pub mode: String,
     /// How the azimuth gets from vertices to fragments.
     pub cyclic: Cyclic,
@@ -150,8 +150,6 @@ impl ViewSettings {
     pub const FOCAL_LENGTHS_MM: [f32; 2] = [12.0, 1200.0];
     /// The fastest turn of its own, degrees per second.
     pub const MOST_AUTO_TURN: f32 = 3600.0;
-    /// The ids of the shading modes that come with the studio.
-    pub const MODES: [&'static str; 5] = ["amc", "isotropic", "normals", "tangents", "uv"];
 
     /// How the object is turned: object space to view space. A unit quaternion.
     pub fn orientation(&self) -> DQuat {
@@ -169,7 +167,9 @@ impl ViewSettings {
     /// How the object is turned, in degrees: yaw and roll -180 to 180, pitch -90 to 90.
     pub fn angles(&self) -> Angles {
         let (roll, pitch, yaw) = self.orientation.to_euler(EulerRot::ZXY);
-        Angles { yaw: yaw.to_degrees(), pitch: pitch.to_degrees(), roll: roll.to_degrees() }
+        // No minus before a zero.
+        let [yaw, pitch, roll] = [yaw, pitch, roll].map(|angle| angle.to_degrees() + 0.0);
+        Angles { yaw, pitch, roll }
     }
 
     /// Turns the object. Angles that are not finite are not taken.
@@ -254,28 +254,11 @@ impl ViewSettings {
         bounds.radius * (1.0 + tangent.powi(-2)).sqrt()
     }
 
-    /// How the garment is shaded. A mode of a plugin's own is `amc` here.
+    /// How the garment is shaded, but for the mode, which is [`Mode::Amc`]: [`crate::Stage::shading`] knows all modes.
     pub fn shading(&self) -> Shading {
-        self.shading_in(&self.mode)
-    }
-
-    /// How it is shaded right of the divider; none where the view is not split.
-    pub fn compared_shading(&self) -> Option<Shading> {
-        let compared = self.compared.as_ref()?;
-        Some(self.shading_in(compared.mode.as_ref().unwrap_or(&self.mode)))
-    }
-
-    fn shading_in(&self, mode: &str) -> Shading {
-        let mode = match mode {
-            "isotropic" => Mode::Isotropic,
-            "normals" => Mode::Normals,
-            "tangents" => Mode::Tangents,
-            "uv" => Mode::Uv,
-            _ => Mode::Amc,
-        };
         let linear = |encoded: u8| LINEAR_FROM_SRGB8[usize::from(encoded)];
         Shading {
-            mode,
+            mode: Mode::Amc,
             cyclic: self.cyclic,
             perspective: self.perspective,
             occlusion: self.occlusion,

@@ -32,12 +32,20 @@ struct Plain {
     /// Per panel: chosen fabric (-2 default, -1 grey), angle, visible.
     panels: [(i64, Option<f32>, bool); PANELS.len()],
     notes: String,
+    /// What a plugin keeps.
+    kept: Option<usize>,
 }
 
 impl Plain {
     fn new() -> Self {
         let panels = [(-2, None, true); PANELS.len()];
-        Self { garment: "garment:shirt".to_owned(), fabrics: vec![0], panels, notes: String::new() }
+        Self {
+            garment: "garment:shirt".to_owned(),
+            fabrics: vec![0],
+            panels,
+            notes: String::new(),
+            kept: None,
+        }
     }
 
     fn is(&self, project: &Project) -> bool {
@@ -56,6 +64,8 @@ impl Plain {
             && fabrics == self.fabrics
             && project.garment == Asset::Bundled(self.garment.clone())
             && project.notes == self.notes
+            && project.plugins.get("counting").and_then(|state| state.as_u64())
+                == self.kept.map(|it| it as u64)
     }
 
     /// A random edit, and the tables after it; none: it must be refused.
@@ -63,7 +73,7 @@ impl Plain {
         let mut after = self.clone();
         let chosen: Vec<usize> = (0..PANELS.len()).filter(|_| random.chance(2)).collect();
         let names: Vec<String> = chosen.iter().map(|&k| PANELS[k].to_owned()).collect();
-        let edit = match random.below(8) {
+        let edit = match random.below(9) {
             0 => {
                 after.garment = ["garment:shirt", "shape:sheet", "garment:scarf"][random.below(3)].to_owned();
                 Edit::SetGarment(Asset::Bundled(after.garment.clone()))
@@ -120,9 +130,14 @@ impl Plain {
                 chosen.iter().for_each(|&k| after.panels[k].2 = visible);
                 Edit::SetVisible { panels: names, visible }
             }
-            _ => {
+            7 => {
                 after.notes = "lore ".repeat(random.below(4));
                 Edit::SetNotes(after.notes.clone())
+            }
+            _ => {
+                after.kept = [None, Some(1), Some(2)][random.below(3)];
+                let (plugin, what) = ("counting".to_owned(), "Count".to_owned());
+                Edit::SetPluginState { plugin, what, state: after.kept.into() }
             }
         };
         (edit, Some(after))

@@ -1,7 +1,8 @@
-use amc_core::render::Orientation;
+use amc_core::render::{Mode, Orientation};
 use glam::DVec3;
 
 use super::*;
+use crate::Stage;
 
 fn corners() -> Vec<Vec3> {
     let bit = |k: u32, b: u32| f32::from((k >> b & 1) as u8);
@@ -129,7 +130,7 @@ fn missing_keys_get_their_defaults_and_all_comes_back() {
     read.orientation = settings.orientation;
     assert_eq!(read, settings);
     settings.check().unwrap();
-    assert_eq!(settings.shading().mode, Mode::Uv);
+    assert_eq!(Stage::default().shading(&settings).mode, Mode::Uv);
 }
 
 #[test]

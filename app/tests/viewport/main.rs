@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod touch;
+
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -20,6 +22,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 use glam::{DQuat, Vec3};
+use studio_plugin::Stage;
 use studio_plugin::document::{Lens, NamedView, ViewSettings};
 
 const BACKDROP: egui::Color32 = egui::Color32::from_rgb(40, 44, 52);
@@ -80,6 +83,7 @@ impl Window {
             selected: &self.selected,
             hovered: None,
             hidden: &self.hidden,
+            shading: Stage::default().shading(&self.settings),
             compared: self.compared.clone(),
             tool: false,
             backdrop: BACKDROP,

@@ -1,71 +1,13 @@
-//! Journeys through the real interface: every step as a person takes it, by its label, drawn by the real renderer.
+//! What a person does, from the first click to the saved project.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
-use std::path::Path;
 use std::time::{Duration, Instant};
 
-use amc_studio::studio::{App, Studio};
-use eframe::egui::{self, Key, Modifiers};
+use amc_studio::studio::Studio;
+use eframe::egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use studio_plugin::{Context, Pane, Place, Plugin};
 
-/// How long loading may take before the test counts as hung.
-const PATIENCE: Duration = Duration::from_secs(240);
-
-/// A window that keeps its things in `folder`.
-fn window(studio: Studio, folder: &Path) -> Harness<'static, App> {
-    let studio = studio.keeping_in(folder.join("kept"));
-    let mut harness = Harness::builder()
-        .with_size([1280.0, 800.0])
-        .with_max_steps(100)
-        .wgpu()
-        .build_eframe(move |creation| studio.into_app(creation));
-    settle(&mut harness);
-    harness
-}
-
-/// Runs frames until all that the document asks for is drawn.
-fn settle(harness: &mut Harness<'_, App>) {
-    let start = Instant::now();
-    harness.step();
-    while !harness.state().is_settled() {
-        assert!(start.elapsed() < PATIENCE, "still not settled");
-        std::thread::sleep(Duration::from_millis(5));
-        harness.step();
-    }
-    harness.run_steps(2);
-}
-
-fn press(harness: &mut Harness<'_, App>, modifiers: Modifiers, key: Key) {
-    harness.key_press_modifiers(modifiers, key);
-    settle(harness);
-}
-
-fn click(harness: &mut Harness<'_, App>, label: &str) {
-    harness.get_by_label(label).click();
-    settle(harness);
-}
-
-/// The degrees of a panel's direction, where it was given one.
-fn degrees(harness: &Harness<'_, App>, panel: &str) -> Option<f32> {
-    let look = harness.state().document().project().look(panel);
-    look.direction.map(|direction| direction.angle.to_degrees())
-}
-
-/// Whether something in the window reads like this.
-fn reads(harness: &Harness<'_, App>, parts: &[&str]) -> bool {
-    let all = |text: String| parts.iter().all(|part| text.contains(part));
-    harness
-        .query_all_by(|node| node.label().is_some_and(all) || node.value().is_some_and(all))
-        .next()
-        .is_some()
-}
-
-fn picture(harness: &mut Harness<'_, App>) -> Vec<u8> {
-    harness.render().unwrap().into_raw()
-}
+use super::*;
 
 #[test]
 fn a_panel_is_picked_turned_undone_saved_and_opened_again() {
@@ -160,77 +102,6 @@ fn a_command_that_cannot_be_run_is_greyed_out() {
     assert!(!greyed(&harness));
 }
 
-/// A plugin that keeps a number with the settings, one more each time.
-struct Counting(std::sync::Arc<std::sync::atomic::AtomicU64>);
-
-impl Plugin for Counting {
-    fn id(&self) -> &'static str {
-        "counting"
-    }
-
-    fn name(&self) -> &'static str {
-        "Counting"
-    }
-
-    fn settings(&self) -> Option<serde_json::Value> {
-        Some((self.0.load(std::sync::atomic::Ordering::Relaxed) + 1).into())
-    }
-
-    fn restore(&mut self, settings: serde_json::Value) -> amc_core::Result<()> {
-        let number = settings.as_u64().ok_or_else(|| amc_core::Error::invalid("no number"))?;
-        self.0.store(number, std::sync::atomic::Ordering::Relaxed);
-        Ok(())
-    }
-}
-
-#[test]
-fn plugins_get_back_what_they_keep() {
-    let folder = tempfile::tempdir().unwrap();
-    for expected in 0..3 {
-        let number = std::sync::Arc::<std::sync::atomic::AtomicU64>::default();
-        let mut harness = window(Studio::new().with_plugin(Counting(number.clone())), folder.path());
-        assert_eq!(number.load(std::sync::atomic::Ordering::Relaxed), expected);
-        eframe::App::on_exit(harness.state_mut());
-    }
-    let file = folder.path().join("kept/studio.json");
-    amc_core::file::save_bytes(&file, b"{").unwrap();
-    let mut harness = window(Studio::new(), folder.path());
-    click(&mut harness, "Log");
-    assert!(reads(&harness, &["studio.json", "kept as"]));
-}
-
-/// A plugin that fails when its pane is drawn.
-struct Faulty;
-
-impl Plugin for Faulty {
-    fn id(&self) -> &'static str {
-        "faulty"
-    }
-
-    fn name(&self) -> &'static str {
-        "Faulty"
-    }
-
-    fn panes(&self) -> Vec<Pane> {
-        vec![Pane { id: "pane", title: "Faulty pane", place: Place::Right }]
-    }
-
-    fn update(&mut self, _studio: &mut Context<'_>) {
-        panic!("on purpose");
-    }
-}
-
-#[test]
-fn a_plugin_that_panics_is_switched_off_and_the_rest_goes_on() {
-    let folder = tempfile::tempdir().unwrap();
-    let mut harness = window(Studio::new().with_plugin(Faulty), folder.path());
-    click(&mut harness, "Log");
-    assert!(reads(&harness, &["'Faulty' failed"]));
-    assert!(harness.query_by_label("Faulty pane").is_none());
-    press(&mut harness, Modifiers::NONE, Key::R);
-    assert!(harness.state().document().undo_name().is_some());
-}
-
 #[test]
 fn what_cannot_be_opened_is_said() {
     let folder = tempfile::tempdir().unwrap();
@@ -240,6 +111,81 @@ fn what_cannot_be_opened_is_said() {
     click(&mut harness, "Log");
     assert!(reads(&harness, &["nothing here opens 'notes.txt'"]));
     assert!(reads(&harness, &["gone.glb", "cannot open"]));
+}
+
+#[test]
+fn a_split_view_shows_what_is_compared_and_is_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("split.amcproj");
+    let mut harness = window(Studio::new(), folder.path());
+    let whole = picture(&mut harness);
+    press(&mut harness, Modifiers::NONE, Key::C);
+    let split = picture(&mut harness);
+    assert_ne!(whole, split);
+    click(&mut harness, "Look");
+    harness.get_by_label("Right: shading").click();
+    settle(&mut harness);
+    harness.state_mut().save_to(&file);
+    settle(&mut harness);
+    let compared = harness.state().document().project().view.compared.clone();
+    assert_eq!(compared.as_ref().map(|it| it.turned_deg), Some(90.0));
+    drop(harness);
+    let mut again = window(Studio::new().open([file]), folder.path());
+    assert_eq!(again.state().document().project().view.compared, compared);
+    press(&mut again, Modifiers::NONE, Key::C);
+    assert_eq!(again.state().document().project().view.compared, None);
+}
+
+#[test]
+fn notes_are_one_step_of_the_undo_and_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    let field =
+        harness.get_by_role_and_label(egui::accesskit::Role::MultilineTextInput, "Notes on the project");
+    field.focus();
+    settle(&mut harness);
+    for text in ["ask ", "the ", "mill"] {
+        harness
+            .get_by_role_and_label(egui::accesskit::Role::MultilineTextInput, "Notes on the project")
+            .type_text(text);
+        settle(&mut harness);
+    }
+    assert_eq!(harness.state().document().project().notes, "ask the mill");
+    assert_eq!(harness.state().document().undo_name(), Some("Edit the notes"));
+    click(&mut harness, "History");
+    click(&mut harness, "The beginning");
+    assert_eq!(harness.state().document().project().notes, "");
+}
+
+#[test]
+fn the_first_steps_do_what_they_say_and_go_for_good() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    click(&mut harness, "Swap them now");
+    let undo = harness.state().document().undo_name().map(str::to_owned);
+    assert!(undo.is_some_and(|name| name.starts_with("Swap warp and weft")));
+    click(&mut harness, "Show the fabrics");
+    assert!(reads(&harness, &["A click puts a fabric on"]));
+    click(&mut harness, "Close");
+    assert!(harness.query_by_label("Swap them now").is_none());
+    eframe::App::on_exit(harness.state_mut());
+    drop(harness);
+    let mut again = window(Studio::new(), folder.path());
+    assert!(again.query_by_label("Swap them now").is_none());
+    press(&mut again, Modifiers::SHIFT, Key::F1);
+    assert!(again.query_by_label("Swap them now").is_some());
+}
+
+#[test]
+fn the_guide_and_the_licences_can_be_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    press(&mut harness, Modifiers::NONE, Key::F1);
+    click(&mut harness, "Directions");
+    assert!(reads(&harness, &["counter-clockwise from the right"]));
+    press(&mut harness, Modifiers::NONE, Key::F1);
+    press(&mut harness, Modifiers::COMMAND, Key::F1);
+    assert!(reads(&harness, &["accesskit"]));
 }
 
 #[test]
@@ -281,23 +227,4 @@ fn type_over(harness: &mut Harness<'_, App>, text: &str) {
     harness.step();
     harness.get_by_role(egui::Role::TextInput).type_text(text);
     settle(harness);
-}
-
-/// The pictures of the README, made anew: `cargo test -p amc-studio --test studio -- --ignored`.
-#[test]
-#[ignore = "writes pictures, asserts nothing about them"]
-fn pictures_of_the_window() {
-    let folder = tempfile::tempdir().unwrap();
-    let pictures = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/pictures");
-    std::fs::create_dir_all(&pictures).unwrap();
-    for theme in [egui::Theme::Dark, egui::Theme::Light] {
-        let mut harness = Harness::builder()
-            .with_size([1440.0, 900.0])
-            .with_theme(theme)
-            .wgpu()
-            .build_eframe(|creation| Studio::new().keeping_in(folder.path()).into_app(creation));
-        settle(&mut harness);
-        let name = format!("studio-{}.png", if theme == egui::Theme::Dark { "dark" } else { "light" });
-        harness.render().unwrap().save(pictures.join(name)).unwrap();
-    }
 }

@@ -1,0 +1,64 @@
+//! Every pane of every plugin as a picture, in both themes and two scales: `UPDATE_SNAPSHOTS=1` makes them anew.
+
+use amc_studio::studio::Studio;
+use eframe::egui::{self, Key, Modifiers};
+use egui_kittest::{SnapshotOptions, SnapshotResults};
+
+use super::*;
+
+/// The window, with one pane in the place of all.
+struct Alone {
+    app: App,
+    pane: (&'static str, &'static str),
+}
+
+impl eframe::App for Alone {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        self.app.show_alone(ui, frame, self.pane);
+    }
+}
+
+#[test]
+fn every_pane_looks_as_it_did() {
+    let folder = tempfile::tempdir().unwrap();
+    let panes = window(Studio::new(), folder.path()).state().panes();
+    assert!(panes.len() >= 8);
+    let mut results = SnapshotResults::new();
+    for (theme, theme_name) in [(egui::Theme::Dark, "dark"), (egui::Theme::Light, "light")] {
+        for scale in [1.0, 1.5] {
+            let kept = tempfile::tempdir().unwrap();
+            let studio = Studio::new().keeping_in(kept.path());
+            let pane = panes[0];
+            let mut harness = Harness::builder()
+                .with_size([300.0 * scale, 400.0 * scale])
+                .with_pixels_per_point(1.0)
+                .with_theme(theme)
+                .with_max_steps(100)
+                .wgpu()
+                .build_eframe(move |creation| Alone { app: studio.into_app(creation), pane });
+            harness.ctx.set_zoom_factor(scale);
+            settle(&mut harness);
+            // Something for the history to show.
+            harness.key_press_modifiers(Modifiers::NONE, Key::R);
+            harness.run_steps(2);
+            settle(&mut harness);
+            harness.remove_cursor();
+            for &pane in &panes {
+                harness.state_mut().pane = pane;
+                harness.run_steps(3);
+                let options = SnapshotOptions::new().output_path("tests/snapshots");
+                let file = format!("{}-{}-{theme_name}-{}", pane.0, pane.1, (scale * 100.0) as u32);
+                results.add(harness.try_snapshot_options(&file, &options));
+            }
+        }
+    }
+}
+
+fn settle(harness: &mut Harness<'_, Alone>) {
+    let start = Instant::now();
+    while !harness.state().app.is_settled() {
+        assert!(start.elapsed() < PATIENCE, "still not settled");
+        std::thread::sleep(Duration::from_millis(5));
+        harness.step();
+    }
+}
