@@ -66,13 +66,17 @@ mod tests {
 
     #[test]
     fn points_of_the_garment_and_of_the_window_belong_together() {
-        let mut drawing = Drawing::default();
-        for (x, y) in [(0.0, 0.0), (0.5, 0.0), (0.0, 0.5)] {
+        let vertex = |(x, y)| {
             let position = Vec3::new(x, y, 0.0);
-            drawing.vertices.push(Vertex { position, normal: Vec3::Z, ..Vertex::default() });
-        }
-        drawing.triangles.push([0, 1, 2]);
-        drawing.draws.push(Draw { triangles: 0..1, cloth: Cloth::Plain });
+            Vertex { position, normal: Vec3::Z, ..Vertex::default() }
+        };
+        let drawing = Drawing {
+            vertices: [(0.0, 0.0), (0.5, 0.0), (0.0, 0.5)].map(vertex).to_vec().into(),
+            tangents: vec![Vec3::X; 3].into(),
+            triangles: vec![[0, 1, 2]].into(),
+            draws: vec![Draw { triangles: 0..1, cloth: Cloth::Plain }],
+            fabrics: Vec::new(),
+        };
         let picker = Picker::new(&drawing).unwrap();
         for projection in
             [Projection::Orthographic { half_height: 1.0 }, Projection::Perspective { fov_y: 0.9 }]
