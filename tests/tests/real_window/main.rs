@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use amc_studio::studio::Studio;
-use driver::{CONTROL, ENTER, ESCAPE, PATIENCE, Person, SHIFT, until};
-use eframe::egui::{Pos2, Rect, pos2};
+use driver::{CONTROL, ENTER, ESCAPE, PATIENCE, Person, SHIFT, Sight, until};
+use eframe::egui::{Pos2, Rect, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use studio_tests::display::{Display, SIZE, Window, program};
@@ -28,6 +28,10 @@ fn garment(folder: &Path) -> PathBuf {
 /// Where things are in a window of this size.
 struct Places {
     view: Rect,
+    /// Where jobs are listed.
+    jobs: Rect,
+    /// What closes the cards of the first steps.
+    close: Pos2,
     /// The tab of the fabrics' pane, and the last fabric in it.
     fabrics: Pos2,
     fabric: Pos2,
@@ -57,13 +61,16 @@ fn places(garment: &Path) -> Places {
     };
     settle(&mut harness);
     let view = harness.get_by_label("Garment").rect();
+    let close = harness.get_by_label("Close").rect().center();
     let fabrics = harness.get_all_by_label("Fabrics").next().unwrap().rect().center();
     harness.get_all_by_label("Fabrics").next().unwrap().click();
     settle(&mut harness);
-    let fabric = harness.get_by_label_contains("changeant").rect().center();
+    let fabric = harness.get_by_label_contains("Changeant").rect().center();
     // Within its edges, which may lie between pixels.
     let view = view.shrink(1.0);
-    Places { view, fabrics, fabric, aside: pos2(width / 2.0, 12.0) }
+    let jobs = Rect::from_min_max(view.left_bottom() + vec2(0.0, 40.0), pos2(view.max.x, height - 8.0));
+    let aside = pos2(width / 2.0, 12.0);
+    Places { view, jobs, close, fabrics, fabric, aside }
 }
 
 #[test]
@@ -89,31 +96,38 @@ fn without_a_graphics_adapter_it_says_so_and_draws_on_the_processor() {
 fn a_garment_is_dressed_saved_and_seen_again() {
     let home = tempfile::tempdir().unwrap();
     let garment = garment(home.path());
-    let Places { view, fabrics, fabric, aside } = places(&garment);
+    let Places { view, jobs, close, fabrics, fabric, aside } = places(&garment);
     let display = Display::start();
     let person = Person::at(&display.name);
     let mut window = Window::open(&program(), &display, home.path(), [&garment]);
     window.shown("garment", PATIENCE);
     person.focus();
+    person.click(close);
     person.point(aside);
     person.press(&[], ESCAPE);
+    let idle = person.sees("no job", jobs, None);
     let whole = person.sees("the garment", view, None);
+    let sees = |what: &str, before: &Sight| {
+        person.sees_other(what, view, before);
+        person.sees_again("the end of all jobs", jobs, &idle);
+        person.sees(what, view, Some(before))
+    };
 
     person.click(view.center());
     person.point(aside);
-    let picked = person.sees("a panel that is outlined", view, Some(&whole));
+    let picked = sees("a panel that is outlined", &whole);
     person.click(fabrics);
     person.click(fabric);
     person.point(aside);
-    let dressed = person.sees("another fabric", view, Some(&picked));
+    let dressed = sees("another fabric", &picked);
     person.press(&[], u32::from(b'r'));
-    let turned = person.sees("warp and weft swapped", view, Some(&dressed));
+    let turned = sees("warp and weft swapped", &dressed);
     person.press(&[CONTROL], u32::from(b'z'));
     person.sees_again("the swap undone", view, &dressed);
     person.press(&[CONTROL, SHIFT], u32::from(b'z'));
     person.sees_again("the swap done again", view, &turned);
     person.press(&[], u32::from(b'c'));
-    let split = person.sees("the view split", view, Some(&turned));
+    let split = sees("the view split", &turned);
 
     // There are no dialogs here: a path is offered, and taken as it is.
     person.press(&[CONTROL], u32::from(b's'));
@@ -127,7 +141,7 @@ fn a_garment_is_dressed_saved_and_seen_again() {
     until("the project's file", || project().is_some());
     person.sees_again("the view as it was before the question", view, &split);
     person.press(&[CONTROL, SHIFT], u32::from(b'a'));
-    let left = person.sees("nothing selected", view, Some(&split));
+    let left = sees("nothing selected", &split);
     person.press(&[CONTROL], u32::from(b'q'));
     until("the program's end", || window.ended().is_some());
     assert!(window.ended().unwrap().success());
