@@ -28,8 +28,9 @@ fn garment(folder: &Path) -> PathBuf {
 /// Where things are in a window of this size.
 struct Places {
     view: Rect,
-    /// Where jobs are listed.
+    /// Where jobs are listed, and the tab of that.
     jobs: Rect,
+    jobs_tab: Pos2,
     /// What closes the cards of the first steps.
     close: Pos2,
     /// The tab of the fabrics' pane, and the last fabric in it.
@@ -61,6 +62,7 @@ fn places(garment: &Path) -> Places {
     };
     settle(&mut harness);
     let view = harness.get_by_label("Garment").rect();
+    let jobs_tab = harness.get_by_label("Jobs").rect().center();
     let close = harness.get_by_label("Close").rect().center();
     let fabrics = harness.get_all_by_label("Fabrics").next().unwrap().rect().center();
     harness.get_all_by_label("Fabrics").next().unwrap().click();
@@ -70,7 +72,7 @@ fn places(garment: &Path) -> Places {
     let view = view.shrink(1.0);
     let jobs = Rect::from_min_max(view.left_bottom() + vec2(0.0, 40.0), pos2(view.max.x, height - 8.0));
     let aside = pos2(width / 2.0, 12.0);
-    Places { view, jobs, close, fabrics, fabric, aside }
+    Places { view, jobs, jobs_tab, close, fabrics, fabric, aside }
 }
 
 #[test]
@@ -96,13 +98,14 @@ fn without_a_graphics_adapter_it_says_so_and_draws_on_the_processor() {
 fn a_garment_is_dressed_saved_and_seen_again() {
     let home = tempfile::tempdir().unwrap();
     let garment = garment(home.path());
-    let Places { view, jobs, close, fabrics, fabric, aside } = places(&garment);
+    let Places { view, jobs, jobs_tab, close, fabrics, fabric, aside } = places(&garment);
     let display = Display::start();
     let person = Person::at(&display.name);
     let mut window = Window::open(&program(), &display, home.path(), [&garment]);
     window.shown("garment", PATIENCE);
     person.focus();
     person.click(close);
+    person.click(jobs_tab);
     person.point(aside);
     person.press(&[], ESCAPE);
     let idle = person.sees("no job", jobs, None);
