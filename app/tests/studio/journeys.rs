@@ -202,7 +202,7 @@ fn an_obj_file_is_taken_in_the_unit_that_is_said() {
     click(&mut harness, "Unit of the file");
     click(&mut harness, "mm");
     assert_eq!(harness.state().document().undo_name(), Some("Take the garment's numbers as mm"));
-    harness.get_by(|node| node.label().is_some_and(|label| label.starts_with("square"))).click();
+    harness.get_by(|node| node.label().is_some_and(|label| label.starts_with("panel "))).click();
     settle(&mut harness);
     assert!(reads(&harness, &["2500 cm2"]));
     press(&mut harness, Modifiers::COMMAND, Key::Z);
