@@ -14,11 +14,11 @@ fn main() -> amc_core::Result<()> {
     let slice = |s: u8| vec![[255 - 32 * s, 32 * s, 64, 255]; 16 * 16];
     let (size, texels) = (TableSize::new(16, 8)?, Texels::Srgb8((0..8).flat_map(slice).collect()));
     let amc = Amc::new(size, texels, Symmetry::Two, Azimuth::Transported, Frame::Half)?;
-    let (normal, tangent) = (Vec3::Z, Vec3::X);
-    let corner = |x, y| Vertex { position: Vec3::new(x, y, 0.0), normal, tangent, ..Vertex::default() };
+    let corner = |x, y| Vertex { position: Vec3::new(x, y, 0.0), normal: Vec3::Z, ..Vertex::default() };
     let drawing = Drawing {
-        vertices: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(0.0, 1.0)],
-        triangles: vec![[0, 1, 2]],
+        vertices: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(0.0, 1.0)].into(),
+        tangents: vec![Vec3::X; 3].into(),
+        triangles: vec![[0, 1, 2]].into(),
         draws: vec![Draw { triangles: 0..1, cloth: Cloth::Fabric(0) }],
         fabrics: vec![amc.into()],
     };

@@ -1,8 +1,10 @@
-//! AMC Studio as a library: the command line, and the window that hosts the plugins.
+//! AMC Studio as a library: the command line, and (feature `window`) the window that hosts the plugins.
 
 pub mod command_line;
 pub mod project;
 mod scene;
 mod storage;
+#[cfg(feature = "window")]
 pub mod studio;
+#[cfg(feature = "window")]
 pub mod viewport;

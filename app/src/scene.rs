@@ -6,7 +6,9 @@ mod garment;
 mod look;
 mod panel_option;
 
-pub(crate) use fabric::{Fabrics, load_fabric};
+pub(crate) use fabric::Fabrics;
+#[cfg(feature = "window")]
+pub(crate) use fabric::load_fabric;
 pub(crate) use garment::load_garment;
 pub(crate) use look::{PanelLook, directions, panel_looks};
 pub(crate) use panel_option::PanelOption;
@@ -37,7 +39,7 @@ pub(crate) fn drawing(
 ) -> Result<Drawing> {
     let tangents = direction::tangents(garment, &directions(looks))?;
     let occlusion = if with_occlusion { Some(vertex_occlusion(garment, progress)?) } else { None };
-    Drawing::new(garment, &tangents.vectors, occlusion.as_deref(), fabrics.into_tables(), |panel| {
+    Drawing::new(garment, tangents.vectors, occlusion.as_deref(), fabrics.into_tables(), |panel| {
         looks[panel].fabric.map_or(Cloth::Plain, Cloth::Fabric)
     })
 }

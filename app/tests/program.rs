@@ -11,14 +11,18 @@ use tempfile::TempDir;
 
 /// The program with its caches in `folder`, run in `folder`.
 fn run(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_amc-studio"))
+    program(folder, arguments).output().unwrap()
+}
+
+fn program(folder: &Path, arguments: &[&str]) -> Command {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_amc-studio"));
+    program
         .args(arguments)
         .current_dir(folder)
         .env("XDG_CACHE_HOME", folder.join("cache"))
         .env_remove("DISPLAY")
-        .env_remove("WAYLAND_DISPLAY")
-        .output()
-        .unwrap()
+        .env_remove("WAYLAND_DISPLAY");
+    program
 }
 
 fn done(folder: &Path, arguments: &[&str]) -> String {
@@ -51,11 +55,24 @@ fn scratch() -> TempDir {
 #[test]
 fn without_a_command_and_a_display_it_makes_a_picture_and_says_where() {
     let folder = scratch();
+    let read = || amc_core::image::decode::read(&folder.path().join("amc-studio.png")).unwrap();
     let said = done(folder.path(), &[]);
     assert!(said.contains("amc-studio.png"), "{said}");
-    let picture = amc_core::image::decode::read(&folder.path().join("amc-studio.png")).unwrap();
+    let picture = read();
     let covered = picture.pixels().iter().filter(|pixel| pixel[3] > 0.5).count();
     assert!(covered > picture.pixels().len() / 5, "{covered} pixels of cloth");
+
+    // Where no graphics driver is installed the processor draws the same.
+    let mut program = program(folder.path(), &[]);
+    program.env("VK_DRIVER_FILES", "/none.json").env("__EGL_VENDOR_LIBRARY_FILENAMES", "/none.json");
+    let output = program.output().unwrap();
+    let noted = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        output.status.success() && noted.contains("drawn by the processor: there is no Vulkan"),
+        "{noted}"
+    );
+    let psnr = amc_core::image::compare::psnr_srgb(&read(), &picture).unwrap();
+    assert!(psnr > 40.0, "{psnr} dB");
 }
 
 #[test]

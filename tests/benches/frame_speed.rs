@@ -123,7 +123,7 @@ fn view() -> View {
 /// A sheet of 3 x 2.6 units in waves, seen whole by no view of 45 degrees from 2 units away.
 fn sheet(fabric: Arc<Amc>) -> Drawing {
     let [columns, rows] = CELLS;
-    let mut drawing = Drawing { fabrics: vec![fabric], ..Drawing::default() };
+    let (mut vertices, mut tangents, mut triangles) = (vec![], vec![], vec![]);
     for row in 0..=rows {
         for column in 0..=columns {
             let uv = Vec2::new(column as f32 / columns as f32, row as f32 / rows as f32);
@@ -134,10 +134,10 @@ fn sheet(fabric: Arc<Amc>) -> Drawing {
                 0.54 * phase.x.cos() - 0.08 * phase.y.cos(),
                 0.12 * phase.x.cos() + 0.24 * phase.y.cos(),
             );
-            drawing.vertices.push(Vertex {
+            tangents.push(Vec3::new(1.0, 0.0, slope.x).normalize_or(Vec3::X));
+            vertices.push(Vertex {
                 position: xy.extend(z),
                 normal: (-slope).extend(1.0).normalize_or(Vec3::Z),
-                tangent: Vec3::new(1.0, 0.0, slope.x).normalize_or(Vec3::X),
                 uv,
                 occlusion: Vec2::splat(0.9 + 0.1 * phase.x.sin()),
             });
@@ -148,11 +148,16 @@ fn sheet(fabric: Arc<Amc>) -> Drawing {
         for column in 0..columns {
             let [a, b] = [corner(column, row), corner(column + 1, row)];
             let [c, d] = [corner(column, row + 1), corner(column + 1, row + 1)];
-            drawing.triangles.extend([[a, b, d], [a, d, c]]);
+            triangles.extend([[a, b, d], [a, d, c]]);
         }
     }
-    drawing.draws = vec![Draw { triangles: 0..2 * columns * rows, cloth: Cloth::Fabric(0) }];
-    drawing
+    Drawing {
+        vertices: vertices.into(),
+        tangents: tangents.into(),
+        triangles: triangles.into(),
+        draws: vec![Draw { triangles: 0..2 * columns * rows, cloth: Cloth::Fabric(0) }],
+        fabrics: vec![fabric],
+    }
 }
 
 /// A smooth table with all values in use.

@@ -121,7 +121,7 @@ fn psnr(data: &Path, scene: &str, view: &str, table: &Arc<Amc>, look: Look) -> R
     let garment = Garment::new(mesh::read(&scenes.join(format!("{mesh_name}.obj")), Unit::Metre)?)?;
     let direction = Direction { source: Source::Yarn, angle: look.angle_degrees.to_radians() };
     let tangents = direction::tangents(&garment, &vec![direction; garment.panels.len()])?;
-    let drawing = Drawing::new(&garment, &tangents.vectors, None, vec![table.clone()], |_| Cloth::Fabric(0))?;
+    let drawing = Drawing::new(&garment, tangents.vectors, None, vec![table.clone()], |_| Cloth::Fabric(0))?;
     let truth = decode::read(&scenes.join(format!("{scene}.png")))?;
     let camera = Camera::read(&scenes.join(format!("{view}.camera.json")))?;
     let view = View::with_camera(

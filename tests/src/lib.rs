@@ -1,5 +1,9 @@
-//! What tests, benchmarks and fuzz targets share: cloths of known symmetry, fuzz targets, timing.
+//! What tests, benchmarks and fuzz targets share: cloths of known symmetry, large garments, fuzz targets, timing, displays,
+//! what processes use.
 
+pub mod display;
 pub mod fuzz_targets;
+pub mod large_garment;
 pub mod materials;
 pub mod timing;
+pub mod usage;

@@ -29,7 +29,8 @@ fn a_sphere_turned_to_a_slice_angle_is_the_picture_at_that_angle() {
         let table = Arc::new(capture::build(folder.path(), &options, &Progress::none()).unwrap().amc);
         assert_eq!(table.symmetry.order(), 2);
         let drawing =
-            Drawing::new(&garment, &tangents.vectors, None, vec![table], |_| Cloth::Fabric(0)).unwrap();
+            Drawing::new(&garment, tangents.vectors.clone(), None, vec![table], |_| Cloth::Fabric(0))
+                .unwrap();
         for slice in [0u32, 5, 16, 40] {
             let angle = std::f32::consts::TAU * slice as f32 / 64.0;
             let orientation = Orientation { roll: angle, ..Orientation::default() };

@@ -149,7 +149,7 @@ fn drawing(name: &str, fabric: Arc<Amc>) -> Drawing {
     let vectors = tangents(&garment, &directions).unwrap().vectors;
     let light = |p: &Vec3| Vec2::new(0.75 + 0.25 * (5.0 * p.y).sin(), 0.75 + 0.25 * (7.0 * p.x).cos());
     let occlusion: Vec<Vec2> = garment.positions.iter().map(light).collect();
-    Drawing::new(&garment, &vectors, Some(&occlusion), vec![fabric], |_| Cloth::Fabric(0)).unwrap()
+    Drawing::new(&garment, vectors, Some(&occlusion), vec![fabric], |_| Cloth::Fabric(0)).unwrap()
 }
 
 fn positions(drawing: &Drawing) -> Vec<Vec3> {
@@ -230,27 +230,28 @@ fn every_perspective_mode(backend: Backend) {
 fn coarse_triangles_backs_and_plain_parts(backend: Backend) {
     let mut twins = Twins::new(backend);
     let mut drawing = drawing("disc-circular", fabric(Symmetry::One, Azimuth::Transported));
-    let of = |position: Vec3, tangent: Vec3| amc_core::render::Vertex {
+    let of = |position: Vec3| amc_core::render::Vertex {
         position,
         normal: Vec3::new(0.2 * position.x, 0.3 * position.y, 1.0).normalize_or(Vec3::Z),
-        tangent,
         uv: Vec2::new(position.x, position.y),
         occlusion: Vec2::new(0.5 + 0.5 * position.x, 0.5 - 0.5 * position.y),
     };
     let angle = |k: u32| std::f32::consts::TAU * k as f32 / 9.0;
-    drawing.vertices = (0..9)
+    let (vertices, tangents): (Vec<_>, Vec<_>) = (0..9)
         .flat_map(|k| {
             let (sin, cos) = angle(k).sin_cos();
             let (outer, tangent) = (Vec3::new(cos, sin, 0.3 * sin), Vec3::new(-sin, cos, 0.1));
-            [of(outer * 0.2, tangent), of(outer, tangent)]
+            [(of(outer * 0.2), tangent), (of(outer), tangent)]
         })
-        .collect();
-    drawing.triangles = (0..9)
+        .unzip();
+    (drawing.vertices, drawing.tangents) = (vertices.into(), tangents.into());
+    let triangles: Vec<[u32; 3]> = (0..9)
         .flat_map(|k| {
             let [a, b, c, d] = [2 * k, 2 * k + 1, (2 * k + 2) % 18, (2 * k + 3) % 18];
             if k % 2 == 0 { [[a, b, d], [a, d, c]] } else { [[a, d, b], [a, c, d]] }
         })
         .collect();
+    drawing.triangles = triangles.into();
     drawing.draws[0].triangles = 0..14;
     drawing.draws.push(amc_core::render::Draw { triangles: 14..18, cloth: Cloth::Plain });
     for (projection, view) in [("parallel", orthographic(&drawing)), ("camera", perspective(&drawing))] {

@@ -98,6 +98,8 @@ fn of_panels(triangles: &[[u32; 3]], ranges: impl Iterator<Item = Range<u32>>) -
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use glam::Mat4;
 
     use super::*;
@@ -105,16 +107,23 @@ mod tests {
 
     /// Squares of side 1 around (0, 0, z) and (1, 0, z), one panel each.
     fn squares(depths: [f32; 2]) -> Drawing {
-        let mut drawing = Drawing::default();
+        let (mut vertices, mut triangles, mut draws) = (vec![], vec![], vec![]);
         for (panel, z) in (0u32..).zip(depths) {
             for (x, y) in [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)] {
                 let position = Vec3::new(x + 0.5 * panel as f32, y, z);
-                drawing.vertices.push(Vertex { position, normal: Vec3::Z, ..Vertex::default() });
+                vertices.push(Vertex { position, normal: Vec3::Z, ..Vertex::default() });
             }
-            drawing.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|corners| corners.map(|k| k + 4 * panel)));
-            drawing.draws.push(Draw { triangles: 2 * panel..2 * panel + 2, cloth: Cloth::Plain });
+            triangles.extend([[0, 1, 2], [0, 2, 3]].map(|corners| corners.map(|k| k + 4 * panel)));
+            draws.push(Draw { triangles: 2 * panel..2 * panel + 2, cloth: Cloth::Plain });
         }
-        drawing
+        let tangents = Arc::new(vec![Vec3::X; vertices.len()]);
+        Drawing {
+            vertices: Arc::new(vertices),
+            tangents,
+            triangles: Arc::new(triangles),
+            draws,
+            fabrics: Vec::new(),
+        }
     }
 
     /// A pixel is 1/100 m; the picture's middle is the origin.
@@ -165,10 +174,10 @@ mod tests {
         let nothing = Picker::new(&Drawing::default()).unwrap();
         assert_eq!(nothing.first(view().ray(Vec2::ZERO), |_| false), None);
         let mut stray = squares([0.0, 0.0]);
-        stray.vertices[3].position.y = f32::NAN;
+        Arc::make_mut(&mut stray.vertices)[3].position.y = f32::NAN;
         assert!(Picker::new(&stray).unwrap_err().to_string().contains("vertex 3"));
         let mut outside = squares([0.0, 0.0]);
-        outside.triangles[0][0] = 99;
+        Arc::make_mut(&mut outside.triangles)[0][0] = 99;
         assert!(Picker::new(&outside).unwrap_err().to_string().contains("triangle 0"));
     }
 }

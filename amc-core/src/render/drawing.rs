@@ -18,7 +18,7 @@ impl Drawing {
     /// Lists of different lengths; triangles, panels or cloths that refer to what is not there.
     pub fn new(
         garment: &Garment,
-        tangents: &[Vec3],
+        tangents: Vec<Vec3>,
         occlusion: Option<&[Vec2]>,
         fabrics: Vec<Arc<Amc>>,
         cloth_of_panel: impl Fn(usize) -> Cloth,
@@ -26,14 +26,12 @@ impl Drawing {
         let count = garment.positions.len();
         check_length("normals", garment.normals.len(), count)?;
         check_length("UVs", garment.uvs.len(), count)?;
-        check_length("tangents", tangents.len(), count)?;
         if let Some(occlusion) = occlusion {
             check_length("occlusion values", occlusion.len(), count)?;
         }
         let vertex = |k: usize| Vertex {
             position: garment.positions[k],
             normal: garment.normals[k],
-            tangent: tangents[k],
             uv: garment.uvs[k],
             occlusion: occlusion.map_or(Vec2::ONE, |values| values[k]),
         };
@@ -42,8 +40,9 @@ impl Drawing {
             cloth: cloth_of_panel(index),
         };
         let drawing = Self {
-            vertices: (0..count).map(vertex).collect(),
-            triangles: garment.triangles.clone(),
+            vertices: Arc::new((0..count).map(vertex).collect()),
+            tangents: Arc::new(tangents),
+            triangles: Arc::new(garment.triangles.clone()),
             draws: garment.panels.iter().enumerate().map(draw).collect(),
             fabrics,
         };
@@ -51,17 +50,63 @@ impl Drawing {
         Ok(drawing)
     }
 
+    /// The same panels in other directions, fabrics and cloths; what does not change with them is shared.
+    ///
+    /// # Errors
+    /// As [`Drawing::new`].
+    pub fn dressed(
+        &self,
+        tangents: Vec<Vec3>,
+        fabrics: Vec<Arc<Amc>>,
+        cloth_of_panel: impl Fn(usize) -> Cloth,
+    ) -> Result<Self> {
+        let draws = self.draws.iter().enumerate();
+        let draws = draws
+            .map(|(index, draw)| Draw { triangles: draw.triangles.clone(), cloth: cloth_of_panel(index) })
+            .collect();
+        let (vertices, triangles) = (Arc::clone(&self.vertices), Arc::clone(&self.triangles));
+        let drawing = Self { vertices, tangents: Arc::new(tangents), triangles, draws, fabrics };
+        drawing.check_tangents()?;
+        drawing.check_draws()?;
+        Ok(drawing)
+    }
+
+    /// The same with an occlusion for every vertex, as [`Drawing::new`] takes it.
+    ///
+    /// # Errors
+    /// Not one for every vertex.
+    pub fn with_occlusion(&self, occlusion: &[Vec2]) -> Result<Self> {
+        check_length("occlusion values", occlusion.len(), self.vertices.len())?;
+        let pairs = self.vertices.iter().zip(occlusion);
+        let vertices = pairs.map(|(vertex, &occlusion)| Vertex { occlusion, ..*vertex }).collect();
+        Ok(Self { vertices: Arc::new(vertices), ..self.clone() })
+    }
+
     /// Whether all that it refers to is there: what both renderers rely on.
     ///
     /// # Errors
-    /// A triangle's vertex, a draw's triangles or a cloth's fabric is out of range.
+    /// Not one tangent for every vertex; a triangle's vertex, a draw's triangles or a cloth's fabric is out of range.
     pub fn check(&self) -> Result<()> {
+        self.check_tangents()?;
+        self.check_triangles()?;
+        self.check_draws()
+    }
+
+    pub(super) fn check_tangents(&self) -> Result<()> {
+        check_length("tangents", self.tangents.len(), self.vertices.len())
+    }
+
+    fn check_triangles(&self) -> Result<()> {
         let vertices = self.vertices.len();
         let stray = |triangle: &[u32; 3]| triangle.iter().any(|&index| index as usize >= vertices);
         if let Some(index) = self.triangles.iter().position(stray) {
             let what = format!("refers to a vertex that is not there; there are {vertices}");
             return Err(Error::malformed(what).at_element(format!("triangle {index}")));
         }
+        Ok(())
+    }
+
+    pub(super) fn check_draws(&self) -> Result<()> {
         for (index, draw) in self.draws.iter().enumerate() {
             let Draw { triangles, cloth } = draw;
             let fault = if triangles.start > triangles.end || triangles.end as usize > self.triangles.len() {
@@ -117,7 +162,7 @@ mod tests {
     fn what_does_not_fit_together_is_refused_with_its_place() {
         let tangents = [Vec3::X; 3];
         let made = |garment: &Garment, tangents: &[Vec3], occlusion: Option<&[Vec2]>, cloth: Cloth| {
-            Drawing::new(garment, tangents, occlusion, Vec::new(), |_| cloth.clone())
+            Drawing::new(garment, tangents.to_vec(), occlusion, Vec::new(), |_| cloth.clone())
         };
         let drawing =
             made(&garment(), &tangents, Some(&[0.1, 0.2, 0.3].map(Vec2::splat)), Cloth::Plain).unwrap();
@@ -136,5 +181,14 @@ mod tests {
         let mut long = garment();
         long.panels[0].triangles = 0..2;
         assert!(message(made(&long, &tangents, None, Cloth::Plain)).contains("0 to 2"));
+        let open = drawing.with_occlusion(&[Vec2::ONE; 3]).unwrap();
+        assert!(open.vertices[2] == Vertex { occlusion: Vec2::ONE, ..drawing.vertices[2] });
+        assert!(message(drawing.with_occlusion(&[Vec2::ONE])).contains("1 occlusion"));
+        let other = drawing.dressed(vec![Vec3::Y; 3], Vec::new(), |_| Cloth::Plain).unwrap();
+        assert!(Arc::ptr_eq(&other.vertices, &drawing.vertices) && *other.tangents == [Vec3::Y; 3]);
+        let dressed =
+            |count: usize, cloth: Cloth| drawing.dressed(vec![Vec3::Y; count], Vec::new(), |_| cloth.clone());
+        assert!(message(dressed(2, Cloth::Plain)).contains("2 tangents"));
+        assert!(message(dressed(3, Cloth::Fabric(0))).contains("panel 0"));
     }
 }

@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 use crate::amc::Amc;
 use crate::image::Picture;
 
-/// One vertex as both renderers take it.
+/// One vertex as both renderers take it, but for its direction.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Vertex {
@@ -32,8 +32,6 @@ pub struct Vertex {
     pub position: Vec3,
     /// Unit, object space.
     pub normal: Vec3,
-    /// Unit, object space, perpendicular to `normal`.
-    pub tangent: Vec3,
     /// v up.
     pub uv: Vec2,
     /// Share of the sky that is open on the side of `normal`, and on the other, 0 to 1: that of the side which is seen
@@ -60,12 +58,16 @@ pub struct Draw {
 }
 
 /// Everything that is drawn, whatever the view.
+///
+/// Drawings of one garment share what does not change with its directions and fabrics; what is shared is uploaded once.
 #[derive(Debug, Clone, Default)]
 pub struct Drawing {
     /// The vertices.
-    pub vertices: Vec<Vertex>,
+    pub vertices: Arc<Vec<Vertex>>,
+    /// The direction of every vertex: unit, object space, perpendicular to the normal.
+    pub tangents: Arc<Vec<Vec3>>,
     /// Corners, counter-clockwise as seen from the front.
-    pub triangles: Vec<[u32; 3]>,
+    pub triangles: Arc<Vec<[u32; 3]>>,
     /// Which triangles in which cloth, one per panel.
     pub draws: Vec<Draw>,
     /// The fabrics in use.

@@ -1,14 +1,15 @@
-//! Without a display: the first look. The bundled satin as a picture.
+//! Without a window: the first look. The bundled satin as a picture.
 
 use std::path::Path;
 
 use amc_core::mesh::Unit;
-use amc_core::render::{Orientation, Shading, View, gpu};
+use amc_core::render::{Orientation, Shading, View};
 
 use super::Outcome;
 use super::output::Output;
 use super::progress::with_progress;
 use super::render::PictureFormat;
+use super::renderer::draw_anyhow;
 use crate::scene::{Fabrics, drawing, load_garment, panel_looks};
 
 /// What wears it.
@@ -20,24 +21,27 @@ const PICTURE: &str = "amc-studio.png";
 /// Columns, and rows.
 const SIDE: u32 = 1024;
 
-pub(super) fn run(output: &Output) -> Outcome {
+/// `why`: what keeps the window from being opened.
+pub(super) fn run(why: &str, output: &Output) -> Outcome {
     let garment = load_garment(Path::new(SCENE), Unit::Metre)?;
     let orientation = Orientation { yaw: -0.4, pitch: 0.15, roll: 0.0 };
     let view = View::fitted(&garment.positions, orientation, SIDE, SIDE)?;
-    let (picture, renderer) = with_progress(|progress| {
+    let (picture, renderer, without_device) = with_progress(|progress| {
         let mut fabrics = Fabrics::default();
         let looks = panel_looks(&garment, None, &[], Some(&mut fabrics), progress)?;
         let drawing = drawing(&garment, &looks, fabrics, true, progress)?;
-        let gpu = gpu::Gpu::headless(gpu::Backend::Auto)?;
-        Ok((gpu::render_picture(&gpu, &drawing, &view, &Shading::default())?, gpu.name()))
+        draw_anyhow(&drawing, &view, &Shading::default(), progress)
     })?;
+    if let Some(error) = without_device {
+        output.notice(&format!("drawn by the processor: {error}"));
+    }
     let file = Path::new(PICTURE);
     PictureFormat::Png.save(&picture, file)?;
     let file = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
     let result = serde_json::json!({ "picture": file, "renderer": renderer });
     output.result(&result, || {
         format!(
-            "There is no display to open the window on; the bundled satin on {SCENE}: {}\n\
+            "No window can be opened: {why}. The bundled satin on {SCENE}: {}\n\
              Try also: amc-studio render {SCENE} -o picture.png --amc fabric:changeant --yaw 40",
             file.display()
         )

@@ -12,6 +12,7 @@ mod log_output;
 mod output;
 mod progress;
 mod render;
+mod renderer;
 mod tangents;
 mod values;
 mod window;
@@ -47,7 +48,7 @@ impl From<amc_core::Error> for Failure {
 
 /// Anisotropic MatCap from the command line.
 ///
-/// Without a command it opens the window; where there is no display it renders the bundled shirt and says where the picture
+/// Without a command it opens the window; where there is no display or no graphics adapter it renders the bundled shirt and says where the picture
 /// is.
 #[derive(Debug, Parser)]
 #[command(name = "amc-studio", version, about, args_conflicts_with_subcommands = true)]
@@ -57,6 +58,9 @@ struct Arguments {
     json: bool,
     /// Projects, meshes and fabrics to open in the window.
     files: Vec<PathBuf>,
+    /// Print a line of JSON when the window, and when the garment in it, was first shown: seconds since the start.
+    #[arg(long)]
+    timings: bool,
     #[command(subcommand)]
     command: Option<Command>,
 }
@@ -119,7 +123,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 fn dispatch(arguments: Arguments, output: &Output) -> Outcome {
     let not_available = |what: &str| Err(Failure::NotAvailable(what.to_owned()));
     match arguments.command {
-        None => window::run(arguments.files, output),
+        None => window::run(arguments.files, arguments.timings, output),
         Some(Command::Render(arguments)) => render::run(&arguments, output),
         Some(Command::Build(arguments)) => build::run(&arguments, output),
         Some(Command::Bake(arguments)) => bake::run(&arguments, output),

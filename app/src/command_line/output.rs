@@ -30,6 +30,14 @@ impl Output {
         }
     }
 
+    /// Prints, as one line of JSON, that something has happened so long after the start.
+    #[cfg(feature = "window")]
+    pub(super) fn milestone(self, name: &str, after: std::time::Duration) {
+        let line = serde_json::json!({ "shown": name, "seconds": after.as_secs_f64() });
+        // Nobody may be listening any more; the window goes on.
+        writeln!(std::io::stdout(), "{line}").ok();
+    }
+
     /// Tells a person something worth knowing that is no failure.
     pub(super) fn notice(&self, text: &str) {
         // A notice that cannot be shown must not fail the work.

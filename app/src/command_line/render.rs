@@ -3,14 +3,15 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use amc_core::Error;
 use amc_core::image::{Picture, decode, encode};
 use amc_core::mesh::Unit;
-use amc_core::render::{Camera, Cyclic, Drawing, Mode, Orientation, Perspective, Shading, View, cpu, gpu};
-use amc_core::{Error, Progress, Result};
+use amc_core::render::{Camera, Cyclic, Mode, Orientation, Perspective, Shading, View};
 use clap::ValueEnum;
 
 use super::output::Output;
 use super::progress::with_progress;
+use super::renderer::{RendererChoice, draw};
 use super::values::{Background, PictureSize, finite, unit};
 use super::{Failure, Outcome};
 use crate::scene::{Fabrics, PanelOption, drawing, load_garment, panel_looks};
@@ -63,7 +64,7 @@ pub(super) struct Arguments {
     #[arg(long, default_value = "none")]
     background: Background,
     /// gpu, or cpu: the reference.
-    #[arg(long, value_enum, default_value = "gpu")]
+    #[arg(long, value_enum, default_value_t)]
     renderer: RendererChoice,
     /// What the mesh's numbers mean: m, dm, cm or mm.
     #[arg(long, default_value = "m", value_parser = unit)]
@@ -89,12 +90,6 @@ enum PerspectiveChoice {
 enum Switch {
     On,
     Off,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum RendererChoice {
-    Gpu,
-    Cpu,
 }
 
 /// What is said about a picture that was made.
@@ -150,24 +145,6 @@ pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
         format!("{} ({width} x {height}, {})", rendered.picture.display(), rendered.renderer)
     })?;
     Ok(())
-}
-
-fn draw(
-    choice: RendererChoice,
-    drawing: &Drawing,
-    view: &View,
-    shading: &Shading,
-    progress: &Progress<'_>,
-) -> Result<(Picture, String)> {
-    match choice {
-        RendererChoice::Cpu => Ok((cpu::render(drawing, view, shading, progress)?, "cpu".to_owned())),
-        RendererChoice::Gpu => {
-            let gpu = gpu::Gpu::headless(gpu::Backend::Auto).map_err(|error| {
-                Error::device(format!("{error}; or render with --renderer cpu")).because(error)
-            })?;
-            Ok((gpu::render_picture(&gpu, drawing, view, shading)?, gpu.name()))
-        }
-    }
 }
 
 fn shading(arguments: &Arguments) -> Result<Shading, Failure> {

@@ -4,27 +4,28 @@ mod actions;
 mod asking;
 mod panes;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use amc_core::render::gpu::Gpu;
-use eframe::egui::{self, Key, Modifiers};
+use eframe::egui::{self, Key, Modifiers, ViewportCommand};
 use studio_plugin::document::Document;
 use studio_plugin::{Context, Jobs, Notices, Registry, Request, Selection};
 
 use super::commands::{self, Offered};
 use super::desk::Desk;
+use super::device_loss::{Handover, Kept, Watch};
 use super::dock::{self, Layout};
 use super::files::{self, Dialog, Opened, Purpose};
 use super::help::Help;
 use super::menu::Menu;
+use super::milestones::Milestones;
 use super::palette::Palette;
 use super::settings::{self, Preferences};
 use super::settings_page::SettingsPage;
 use super::stager::Stager;
 use super::theme::{self, Tokens};
 use super::welcome::Chosen;
-use super::{texts, toasts};
-use crate::storage::Folders;
+use super::{Studio, texts, toasts};
 use crate::viewport::Viewport;
 
 /// The studio's window.
@@ -54,6 +55,11 @@ pub struct App {
     /// The window is to close once the project is saved.
     leaving_saved: bool,
     context: egui::Context,
+    has_dialogs: bool,
+    milestones: Milestones,
+    device: Watch,
+    /// Where the work goes if the device is lost; none: there is no next window.
+    handover: Option<Handover>,
 }
 
 impl std::fmt::Debug for App {
@@ -66,29 +72,50 @@ impl std::fmt::Debug for App {
 }
 
 impl App {
-    pub(super) fn new(
-        registry: Registry,
-        files: Vec<PathBuf>,
-        folders: Option<Folders>,
-        creation: &eframe::CreationContext<'_>,
-    ) -> Self {
-        theme::apply(&creation.egui_ctx);
-        let context = creation.egui_ctx.clone();
-        let render_state = creation.wgpu_render_state.as_ref();
+    pub(super) fn new(studio: Studio, creation: &eframe::CreationContext<'_>) -> Self {
+        let Studio { plugins: mut registry, files, folders, has_dialogs, tell } = studio;
         let mut notices = Notices::default();
-        let mut registry = registry;
         let desk = Desk::new(folders, &mut notices);
         let (layout, preferences) = desk
             .settings_folder()
             .map(|folder| settings::restore(folder, &mut registry, &mut notices))
             .unwrap_or_default();
+        let layout = layout.unwrap_or_else(|| dock::initial(&registry));
+        let selection = Selection::default();
+        let kept = Kept { desk, selection, registry, layout, preferences, notices, has_dialogs };
+        let mut app = Self::with(kept, creation);
+        app.milestones = tell.map_or_else(Milestones::default, Milestones::new);
+        for file in files {
+            app.open(&file);
+        }
+        app
+    }
+
+    /// Goes on where a window was whose device is lost.
+    pub(super) fn resume(kept: Kept, creation: &eframe::CreationContext<'_>) -> Self {
+        let mut app = Self::with(kept, creation);
+        app.notices.note(texts::DEVICE_LOST);
+        app
+    }
+
+    /// Leaving the work there if the device is lost.
+    pub(super) fn leaving_to(mut self, handover: Handover) -> Self {
+        self.handover = Some(handover);
+        self
+    }
+
+    fn with(kept: Kept, creation: &eframe::CreationContext<'_>) -> Self {
+        theme::apply(&creation.egui_ctx);
+        let context = creation.egui_ctx.clone();
+        let render_state = creation.wgpu_render_state.as_ref();
+        let Kept { desk, selection, registry, layout, preferences, notices, has_dialogs } = kept;
         preferences.apply(&creation.egui_ctx);
-        let mut app = Self {
+        Self {
             desk,
-            selection: Selection::default(),
+            selection,
             jobs: Jobs::new(move || context.request_repaint()),
             notices,
-            layout: layout.unwrap_or_else(|| dock::initial(&registry)),
+            layout,
             stager: Stager::new(&registry),
             registry,
             gpu: render_state.map(|state| Gpu { device: state.device.clone(), queue: state.queue.clone() }),
@@ -104,11 +131,12 @@ impl App {
             discard: false,
             leaving_saved: false,
             context: creation.egui_ctx.clone(),
-        };
-        for file in files {
-            app.open(&file);
+            has_dialogs,
+            milestones: Milestones::default(),
+            device: render_state
+                .map_or_else(Watch::default, |state| Watch::over(&state.device, &creation.egui_ctx)),
+            handover: None,
         }
-        app
     }
 
     /// What the person works on.
@@ -123,7 +151,7 @@ impl App {
 
     /// Takes in what has happened since the last frame; gives the commands there are.
     fn begin_frame(&mut self, ui: &egui::Ui) -> Vec<Offered> {
-        self.answered();
+        self.answered(ui);
         self.drops(ui);
         self.with_context(|registry, studio| registry.each(studio, |plugin, studio| plugin.update(studio)));
         self.desk.update(&mut self.notices);
@@ -242,6 +270,12 @@ impl App {
 
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        if self.device.is_lost() && self.handover.is_some() {
+            // Nothing is drawn on what is lost.
+            ui.send_viewport_cmd(ViewportCommand::Close);
+            return;
+        }
+        self.milestones.begin_frame(ui);
         let all = self.begin_frame(ui);
         let mut wanted = self.pressed(ui, &all);
         let blocked = self.blocked(&all);
@@ -276,9 +310,20 @@ impl eframe::App for App {
         toasts::show(ui, &self.notices);
         self.question(ui);
         self.leave(ui);
+        let has_garment = self.viewport.as_ref().is_some_and(|viewport| viewport.scenes_drawn() > 0);
+        self.milestones.end_frame(ui, has_garment);
+        if self.device.is_lost_by_now() {
+            // egui's renderer panics where it cannot upload what is to be painted: nothing is.
+            ui.graphics_mut(|layers| drop(std::mem::take(layers)));
+            ui.request_repaint();
+        }
     }
 
     fn on_exit(&mut self) {
+        if self.device.is_lost() && self.handover.is_some() {
+            // The next window goes on.
+            return;
+        }
         if let Some(folder) = self.desk.settings_folder().map(Path::to_owned)
             && let Err(error) = settings::keep(
                 &folder,
@@ -291,5 +336,21 @@ impl eframe::App for App {
             log::error!("{error}");
         }
         self.desk.finish();
+    }
+}
+
+impl Drop for App {
+    fn drop(&mut self) {
+        let Some(handover) = self.handover.take().filter(|_| self.device.is_lost_by_now()) else { return };
+        let blank = Desk::new(None, &mut Notices::default());
+        handover.leave(Kept {
+            desk: std::mem::replace(&mut self.desk, blank),
+            selection: std::mem::take(&mut self.selection),
+            registry: std::mem::take(&mut self.registry),
+            layout: std::mem::replace(&mut self.layout, Layout::empty(egui::Id::unique("left"))),
+            preferences: std::mem::take(&mut self.preferences),
+            notices: std::mem::take(&mut self.notices),
+            has_dialogs: self.has_dialogs,
+        });
     }
 }

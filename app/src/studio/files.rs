@@ -3,9 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use amc_core::Result;
+use eframe::egui;
+#[cfg(feature = "dialogs")]
+use studio_plugin::Job;
+use studio_plugin::Jobs;
 use studio_plugin::document::{Asset, Edit, Project};
-use studio_plugin::{Job, Jobs};
 
+use super::path_field::PathField;
 use super::stager::{Kind, kind};
 
 /// What a dialog is for.
@@ -17,39 +21,77 @@ pub(super) enum Purpose {
     Find(PathBuf),
 }
 
-/// A dialog that is open, on a thread of its own: the window goes on.
+/// A question for a file, which does not hold the window up.
 #[derive(Debug)]
 pub(super) struct Dialog {
     pub(super) purpose: Purpose,
-    job: Job<Option<PathBuf>>,
+    form: Form,
+}
+
+#[derive(Debug)]
+enum Form {
+    /// The system's, on a thread of its own.
+    #[cfg(feature = "dialogs")]
+    System(Job<Option<PathBuf>>),
+    Field(PathField),
+}
+
+/// Whether the system has dialogs to choose files in. On Unix they come over the session's bus; a rig has none.
+pub(super) fn system_has_dialogs() -> bool {
+    let named = |variable: &str| std::env::var_os(variable).filter(|value| !value.is_empty());
+    let has_bus = || {
+        let socket = named("XDG_RUNTIME_DIR").map(|folder| Path::new(&folder).join("bus"));
+        named("DBUS_SESSION_BUS_ADDRESS").is_some() || socket.is_some_and(|socket| socket.exists())
+    };
+    cfg!(feature = "dialogs") && (!cfg!(all(unix, not(target_os = "macos"))) || has_bus())
 }
 
 impl Dialog {
-    pub(super) fn open(purpose: Purpose, name: &str, jobs: &mut Jobs) -> Self {
-        let name = name.to_owned();
-        let asked = purpose.clone();
-        let job = jobs.start("Choosing a file", move |_| {
-            let dialog = rfd::FileDialog::new();
-            Ok(match asked {
-                Purpose::Find(missing) => {
-                    dialog.set_title(format!("Where is {}?", missing.display())).pick_file()
-                }
-                Purpose::Open => dialog
-                    .add_filter("All that can be opened", &["amcproj", "glb", "gltf", "obj", "ktx2"])
-                    .add_filter("Projects", &["amcproj"])
-                    .add_filter("Garments", &["glb", "gltf", "obj"])
-                    .add_filter("Fabrics", &["ktx2"])
-                    .pick_file(),
-                Purpose::Save => dialog.add_filter("Projects", &["amcproj"]).set_file_name(name).save_file(),
-            })
-        });
-        Self { purpose, job }
+    /// `name` is offered for a new project, `file` is where the present one is.
+    pub(super) fn open(
+        purpose: Purpose,
+        (name, file): (&str, Option<&Path>),
+        of_system: bool,
+        jobs: &mut Jobs,
+    ) -> Self {
+        #[cfg(feature = "dialogs")]
+        if of_system {
+            let form = Form::System(ask_system(purpose.clone(), name.to_owned(), jobs));
+            return Self { purpose, form };
+        }
+        #[cfg(not(feature = "dialogs"))]
+        let _: (bool, &mut Jobs) = (of_system, jobs);
+        let form = Form::Field(PathField::new(&purpose, name, file));
+        Self { purpose, form }
     }
 
-    /// What was chosen, once it is closed; nothing where it was called off.
-    pub(super) fn poll(&self) -> Option<Result<Option<PathBuf>>> {
-        self.job.poll()
+    /// What was chosen, once it is closed; nothing where it was called off. To be called once a frame.
+    pub(super) fn poll(&mut self, ui: &egui::Ui) -> Option<Result<Option<PathBuf>>> {
+        match &mut self.form {
+            #[cfg(feature = "dialogs")]
+            Form::System(job) => job.poll(),
+            Form::Field(field) => field.show(ui, &self.purpose).map(Ok),
+        }
     }
+}
+
+#[cfg(feature = "dialogs")]
+fn ask_system(purpose: Purpose, name: String, jobs: &mut Jobs) -> Job<Option<PathBuf>> {
+    jobs.start("Choosing a file", move |_| {
+        let dialog = rfd::FileDialog::new();
+        Ok(match purpose {
+            Purpose::Find(missing) => {
+                dialog.set_title(format!("Where is {}?", missing.display())).pick_file()
+            }
+            Purpose::Open => dialog
+                .add_filter("All that can be opened", &["amcproj", "glb", "gltf", "obj", "ktx2"])
+                .add_filter("Projects", &["amcproj"])
+                .add_filter("Garments", &["glb", "gltf", "obj"])
+                .add_filter("Fabrics", &["ktx2"])
+                .pick_file(),
+            Purpose::Save => dialog.add_filter("Projects", &["amcproj"]).set_file_name(name).save_file(),
+        })
+    })
 }
 
 /// What becomes of a file that is opened or dropped.

@@ -4,13 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use amc_core::Result;
 use amc_core::amc::Amc;
 use amc_core::direction::{self, Direction};
 use amc_core::mesh::{Garment, Picker, Unit};
 use amc_core::render::{Bounds, Cloth, Drawing};
-use amc_core::{Progress, Result};
 use eframe::egui::ColorImage;
-use glam::Vec2;
 use studio_plugin::document::{Asset, FabricId, Project};
 use studio_plugin::{Job, Jobs, Notices, Registry, Stage};
 
@@ -29,6 +28,8 @@ pub(super) struct Stager {
     /// What is drawn right of the divider of a split view, where that is not the same.
     pub(super) compared: Drawn,
     garment: Loading<(Asset, Unit), Loaded>,
+    /// What darkens the folds takes longest, and comes when the garment is seen already.
+    shaded: Option<Job<Arc<Drawing>>>,
     fabrics: BTreeMap<FabricId, Loading<Asset, (Arc<Amc>, ColorImage)>>,
     loaded: Option<Loaded>,
 }
@@ -60,7 +61,8 @@ impl<K, T> Default for Loading<K, T> {
 #[derive(Debug, Clone)]
 struct Loaded {
     garment: Arc<Garment>,
-    occlusion: Arc<Vec<Vec2>>,
+    /// All panels plain: what the drawings of it share.
+    plain: Arc<Drawing>,
     picker: Arc<Picker>,
     pieces: Vec<Arc<ColorImage>>,
 }
@@ -77,7 +79,7 @@ impl PartialEq for Recipe {
     fn eq(&self, other: &Self) -> bool {
         let same_fabrics = self.fabrics.len() == other.fabrics.len()
             && self.fabrics.iter().zip(&other.fabrics).all(|((a, x), (b, y))| a == b && Arc::ptr_eq(x, y));
-        Arc::ptr_eq(&self.loaded.garment, &other.loaded.garment) && self.looks == other.looks && same_fabrics
+        Arc::ptr_eq(&self.loaded.plain, &other.loaded.plain) && self.looks == other.looks && same_fabrics
     }
 }
 
@@ -100,6 +102,7 @@ impl Stager {
     /// Whether something is still to come.
     pub(super) fn is_busy(&self) -> bool {
         self.garment.job.is_some()
+            || self.shaded.is_some()
             || self.drawn.job.is_some()
             || self.compared.job.is_some()
             || self.fabrics.values().any(|it| it.job.is_some())
@@ -110,14 +113,14 @@ impl Stager {
         if self.garment.wanted.as_ref() != Some(&wanted) {
             let (asset, unit) = wanted.clone();
             self.garment.wanted = Some(wanted);
-            self.garment.job = Some(jobs.start(format!("Opening {}", asset.name()), move |progress| {
-                Loaded::new(&asset, unit, progress)
-            }));
+            let load = move |_: &amc_core::Progress<'_>| Loaded::new(&asset, unit);
+            self.garment.job = Some(jobs.start(format!("Opening {}", project.garment.name()), load));
         }
         if let Some(result) = self.garment.job.as_ref().and_then(Job::poll) {
             self.garment.job = None;
             match result {
                 Ok(loaded) => {
+                    self.shaded = Some(loaded.start_shading(&project.garment, jobs));
                     for notice in &loaded.garment.notices {
                         notices.note(notice);
                     }
@@ -129,6 +132,14 @@ impl Stager {
                     self.loaded = Some(loaded);
                 }
                 Err(error) => notices.failed(error),
+            }
+        }
+        if let Some(result) = self.shaded.as_ref().and_then(Job::poll) {
+            self.shaded = None;
+            match (result, &mut self.loaded) {
+                (Ok(plain), Some(loaded)) => loaded.plain = plain,
+                (Ok(_), None) => {}
+                (Err(error), _) => notices.failed(error),
             }
         }
     }
@@ -207,15 +218,24 @@ impl Drawn {
 }
 
 impl Loaded {
-    fn new(asset: &Asset, unit: Unit, progress: &Progress<'_>) -> Result<Self> {
+    fn new(asset: &Asset, unit: Unit) -> Result<Self> {
         let garment = load_garment(&path(asset), unit)?;
-        let occlusion = vertex_occlusion(&garment, progress)?;
-        let plain = Drawing::new(&garment, &garment.normals, None, Vec::new(), |_| Cloth::Plain)?;
+        let tangents = garment.normals.clone();
+        let plain = Drawing::new(&garment, tangents, None, Vec::new(), |_| Cloth::Plain)?;
         let picker = Picker::new(&plain)?;
         let piece = |panel| Arc::new(thumbnail::piece(&garment, panel));
         let pieces = garment.panels.iter().map(piece).collect();
-        let (garment, occlusion) = (Arc::new(garment), Arc::new(occlusion));
-        Ok(Self { garment, occlusion, picker: Arc::new(picker), pieces })
+        let (garment, plain) = (Arc::new(garment), Arc::new(plain));
+        Ok(Self { garment, plain, picker: Arc::new(picker), pieces })
+    }
+
+    /// The plain drawing with the occlusion of every vertex.
+    fn start_shading(&self, asset: &Asset, jobs: &mut Jobs) -> Job<Arc<Drawing>> {
+        let (garment, plain) = (Arc::clone(&self.garment), Arc::clone(&self.plain));
+        jobs.start(format!("Shading the folds of {}", asset.name()), move |progress| {
+            let occlusion = vertex_occlusion(&garment, progress)?;
+            plain.with_occlusion(&occlusion).map(Arc::new)
+        })
     }
 }
 
@@ -229,7 +249,7 @@ impl Recipe {
             self.looks[panel].0.and_then(|id| numbers.get(&id)).map_or(Cloth::Plain, |&n| Cloth::Fabric(n))
         };
         let fabrics = self.fabrics.values().cloned().collect();
-        Drawing::new(garment, &tangents.vectors, Some(&self.loaded.occlusion), fabrics, cloth)
+        self.loaded.plain.dressed(tangents.vectors, fabrics, cloth)
     }
 }
 

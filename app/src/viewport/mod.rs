@@ -82,8 +82,16 @@ impl Viewport {
         if self.garment.as_ref().is_some_and(shows) && self.shape.as_ref().is_some_and(picks) {
             return;
         }
-        self.shape = Some(Shape::new(&drawing, picker));
-        self.garment = Some(Garment::new(drawing, self.next_revision()));
+        let is_as_large = |garment: &Garment| Arc::ptr_eq(&garment.drawing.vertices, &drawing.vertices);
+        let revision = self.next_revision();
+        match &mut self.shape {
+            Some(shape) if picks(shape) && self.garment.as_ref().is_some_and(is_as_large) => {}
+            shape => *shape = Some(Shape::new(&drawing, picker)),
+        }
+        match &mut self.garment {
+            Some(garment) => garment.replace(drawing, revision),
+            none => *none = Some(Garment::new(drawing, revision)),
+        }
     }
 
     /// Shows nothing from now on.
@@ -98,7 +106,10 @@ impl Viewport {
             return;
         }
         let revision = self.next_revision();
-        self.compared = drawing.map(|drawing| Garment::new(drawing, revision));
+        match (&mut self.compared, drawing) {
+            (Some(garment), Some(drawing)) => garment.replace(drawing, revision),
+            (compared, drawing) => *compared = drawing.map(|drawing| Garment::new(drawing, revision)),
+        }
     }
 
     /// The texture of fabric `index` of the drawing, once it was drawn, to replace slices of it; then [`Viewport::redraw`].
@@ -273,12 +284,16 @@ impl Viewport {
         let shadings = [Some(input.shading.clone()), input.compared.clone()];
         let halves = self.split.halves(at.rect, input.compared.is_some());
         for (side, (canvas, shading)) in self.canvases.iter_mut().zip(shadings).enumerate() {
-            let compared = if side == 1 { self.compared.as_mut() } else { None };
-            let (Some(shading), Some(garment)) = (shading, compared.or(self.garment.as_mut())) else {
-                continue;
+            let Some(shading) = shading else { continue };
+            let (garment, other) = match (&mut self.compared, &mut self.garment) {
+                (Some(compared), garment) if side == 1 => {
+                    (compared, garment.as_ref().and_then(Garment::uploaded))
+                }
+                (_, Some(garment)) => (garment, None),
+                (_, None) => continue,
             };
             let wanted = wanted(shading, garment.revision);
-            let scene = garment.scene(tools.renderer)?;
+            let scene = garment.scene(tools.renderer, other)?;
             let blit = canvas.picture(&mut tools, scene, &wanted, &mut self.scenes_drawn)?;
             ui.painter()
                 .with_clip_rect(halves[side].intersect(ui.clip_rect()))

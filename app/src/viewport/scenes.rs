@@ -14,24 +14,63 @@ pub(super) struct Garment {
     pub(super) drawing: Arc<Drawing>,
     /// Tells it from those before it.
     pub(super) revision: u64,
-    /// What was made of it; a failure is kept, so that it is not tried again in every frame.
-    scene: Option<Result<Scene, Arc<Error>>>,
+    /// What was made of it, or of the drawing before it.
+    scene: Option<Scene>,
+    upload: Upload,
+}
+
+/// Whether the scene is one of the drawing.
+#[derive(Debug)]
+enum Upload {
+    Due,
+    Done,
+    /// Kept, so that it is not tried again in every frame.
+    Failed(Arc<Error>),
 }
 
 impl Garment {
     pub(super) fn new(drawing: Arc<Drawing>, revision: u64) -> Self {
-        Self { drawing, revision, scene: None }
+        Self { drawing, revision, scene: None, upload: Upload::Due }
     }
 
-    /// Its scene.
-    pub(super) fn scene(&mut self, renderer: &Renderer) -> Result<&mut Scene, Arc<Error>> {
-        let prepare = || renderer.prepare(&self.drawing).map_err(Arc::new);
-        self.scene.get_or_insert_with(prepare).as_mut().map_err(|error| Arc::clone(error))
+    /// Shows another drawing from now on; what they share is kept.
+    pub(super) fn replace(&mut self, drawing: Arc<Drawing>, revision: u64) {
+        (self.drawing, self.revision, self.upload) = (drawing, revision, Upload::Due);
+    }
+
+    /// Its scene; uploaded now where it is not yet, sharing with `other` what it can.
+    pub(super) fn scene(
+        &mut self,
+        renderer: &Renderer,
+        other: Option<&Scene>,
+    ) -> Result<&mut Scene, Arc<Error>> {
+        if let Upload::Due = self.upload {
+            self.upload = match self.uploaded_now(renderer, other) {
+                Ok(scene) => {
+                    self.scene = Some(scene);
+                    Upload::Done
+                }
+                Err(error) => Upload::Failed(Arc::new(error)),
+            };
+        }
+        match (&self.upload, &mut self.scene) {
+            (Upload::Failed(error), _) => Err(Arc::clone(error)),
+            (_, Some(scene)) => Ok(scene),
+            (_, None) => Err(Arc::new(Error::invalid("the garment was not uploaded"))),
+        }
+    }
+
+    fn uploaded_now(&mut self, renderer: &Renderer, other: Option<&Scene>) -> Result<Scene> {
+        match (self.scene.take(), other) {
+            (Some(mut scene), _) => renderer.update(&mut scene, &self.drawing).map(|_| scene),
+            (None, Some(other)) => renderer.prepare_beside(other, &self.drawing),
+            (None, None) => renderer.prepare(&self.drawing),
+        }
     }
 
     /// The scene, where it was drawn before.
     pub(super) fn uploaded(&self) -> Option<&Scene> {
-        self.scene.as_ref()?.as_ref().ok()
+        self.scene.as_ref()
     }
 
     /// The bounds of some of its panels; none where they hold nothing.

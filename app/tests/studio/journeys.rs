@@ -208,3 +208,44 @@ fn an_obj_file_is_taken_in_the_unit_that_is_said() {
     press(&mut harness, Modifiers::COMMAND, Key::Z);
     assert!(!reads(&harness, &["2500 cm2"]));
 }
+
+#[test]
+fn where_there_are_no_dialogs_a_path_is_typed() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("typed.amcproj");
+    let mut harness = window(Studio::new().without_dialogs(), folder.path());
+    let field = |harness: &Harness<'_, App>| harness.get_by_role(egui::Role::TextInput).value().unwrap();
+    press(&mut harness, Modifiers::NONE, Key::R);
+    press(&mut harness, Modifiers::COMMAND, Key::S);
+    assert!(field(&harness).ends_with(".amcproj"));
+    // Called off, nothing is saved.
+    press(&mut harness, Modifiers::NONE, Key::Escape);
+    assert!(harness.state().document().is_changed());
+
+    press(&mut harness, Modifiers::COMMAND, Key::S);
+    type_over(&mut harness, folder.path().join("typed").to_str().unwrap());
+    press(&mut harness, Modifiers::NONE, Key::Enter);
+    assert!(file.exists() && !harness.state().document().is_changed());
+
+    // What is there is not replaced unawares.
+    press(&mut harness, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::S);
+    assert_eq!(field(&harness), file.to_str().unwrap());
+    assert!(harness.query_by_label("Replace").is_some());
+    click(&mut harness, "Cancel");
+
+    press(&mut harness, Modifiers::COMMAND, Key::N);
+    press(&mut harness, Modifiers::COMMAND, Key::O);
+    type_over(&mut harness, folder.path().join("nothing").to_str().unwrap());
+    assert!(harness.get_by_label("Open").accesskit_node().is_disabled());
+    type_over(&mut harness, file.to_str().unwrap());
+    click(&mut harness, "Open");
+    assert!(degrees(&harness, "back").is_some());
+}
+
+/// Replaces the text of the only field.
+fn type_over(harness: &mut Harness<'_, App>, text: &str) {
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.step();
+    harness.get_by_role(egui::Role::TextInput).type_text(text);
+    settle(harness);
+}

@@ -46,7 +46,7 @@ fn drawing() -> Arc<Drawing> {
     let directions = vec![Default::default(); garment.panels.len()];
     let tangents = amc_core::direction::tangents(&garment, &directions).unwrap();
     let cloth = |panel| if panel == 0 { Cloth::Fabric(0) } else { Cloth::Plain };
-    Arc::new(Drawing::new(&garment, &tangents.vectors, None, vec![table()], cloth).unwrap())
+    Arc::new(Drawing::new(&garment, tangents.vectors, None, vec![table()], cloth).unwrap())
 }
 
 fn table() -> Arc<Amc> {

@@ -52,7 +52,7 @@ pub fn contact_sheet(
         let open = occlusion::compute(garment, occlusion::Options::default(), &Progress::none())?;
         for (place, fabric) in fabrics.iter().enumerate() {
             let drawing =
-                Drawing::new(garment, &tangents.vectors, Some(&open), vec![fabric.clone()], |_| {
+                Drawing::new(garment, tangents.vectors.clone(), Some(&open), vec![fabric.clone()], |_| {
                     Cloth::Fabric(0)
                 })?;
             for side in 0..SIDES {

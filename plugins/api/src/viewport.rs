@@ -59,6 +59,8 @@ impl ViewportView<'_> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use amc_core::render::{Cloth, Draw, Drawing, Projection, Vertex};
     use glam::Mat4;
 
@@ -66,13 +68,14 @@ mod tests {
 
     #[test]
     fn points_of_the_garment_and_of_the_window_belong_together() {
-        let mut drawing = Drawing::default();
-        for (x, y) in [(0.0, 0.0), (0.5, 0.0), (0.0, 0.5)] {
-            let position = Vec3::new(x, y, 0.0);
-            drawing.vertices.push(Vertex { position, normal: Vec3::Z, ..Vertex::default() });
-        }
-        drawing.triangles.push([0, 1, 2]);
-        drawing.draws.push(Draw { triangles: 0..1, cloth: Cloth::Plain });
+        let vertex = |(x, y)| Vertex { position: Vec3::new(x, y, 0.0), normal: Vec3::Z, ..Vertex::default() };
+        let drawing = Drawing {
+            vertices: Arc::new([(0.0, 0.0), (0.5, 0.0), (0.0, 0.5)].map(vertex).to_vec()),
+            tangents: Arc::new(vec![Vec3::X; 3]),
+            triangles: Arc::new(vec![[0, 1, 2]]),
+            draws: vec![Draw { triangles: 0..1, cloth: Cloth::Plain }],
+            fabrics: Vec::new(),
+        };
         let picker = Picker::new(&drawing).unwrap();
         for projection in
             [Projection::Orthographic { half_height: 1.0 }, Projection::Perspective { fov_y: 0.9 }]

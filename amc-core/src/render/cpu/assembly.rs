@@ -50,7 +50,9 @@ impl Assembly {
         let perspective = shading.perspective;
         let mut corners = Vec::new();
         for &axis in &distinct {
-            corners.append(&mut VertexStage { view, perspective, axis }.run(&drawing.vertices));
+            corners.append(
+                &mut VertexStage { view, perspective, axis }.run(&drawing.vertices, &drawing.tangents),
+            );
         }
         let base_of = |axis: &Option<Axis>| {
             let position = distinct.iter().position(|other| other == axis).unwrap_or(0);

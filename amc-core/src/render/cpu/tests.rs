@@ -36,20 +36,24 @@ fn wave(turns: f32) -> f32 {
     0.5 + 0.5 * (turns * TAU).cos()
 }
 
-fn drawing(vertices: Vec<Vertex>, triangles: Vec<[u32; 3]>, fabric: Option<Arc<Amc>>) -> Drawing {
+fn drawing(corners: Vec<(Vertex, Vec3)>, triangles: Vec<[u32; 3]>, fabric: Option<Arc<Amc>>) -> Drawing {
     let cloth = if fabric.is_some() { Cloth::Fabric(0) } else { Cloth::Plain };
     let draws = vec![Draw { triangles: 0..triangles.len() as u32, cloth }];
-    Drawing { vertices, triangles, draws, fabrics: fabric.into_iter().collect() }
+    let (vertices, tangents): (Vec<Vertex>, Vec<Vec3>) = corners.into_iter().unzip();
+    Drawing {
+        vertices: Arc::new(vertices),
+        tangents: Arc::new(tangents),
+        triangles: Arc::new(triangles),
+        draws,
+        fabrics: fabric.into_iter().collect(),
+    }
 }
 
 /// A parallelogram `origin + u a + v b`, u and v in 0..=1 being its UVs, with one normal and tangent.
 fn sheet(origin: Vec3, a: Vec3, b: Vec3, normal: Vec3, tangent: Vec3, fabric: Option<Arc<Amc>>) -> Drawing {
-    let vertex = |(u, v): (f32, f32)| Vertex {
-        position: origin + a * u + b * v,
-        normal,
-        tangent,
-        uv: Vec2::new(u, v),
-        occlusion: Vec2::splat(0.5),
+    let vertex = |(u, v): (f32, f32)| {
+        let (position, uv) = (origin + a * u + b * v, Vec2::new(u, v));
+        (Vertex { position, normal, uv, occlusion: Vec2::splat(0.5) }, tangent)
     };
     let vertices = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(vertex).to_vec();
     drawing(vertices, vec![[0, 1, 2], [0, 2, 3]], fabric)
@@ -229,15 +233,12 @@ fn a_sheet_far_larger_than_the_picture_is_clipped_without_a_gap() {
 fn the_nearest_is_seen_whatever_the_order_and_the_first_of_equals() {
     let quad = |z: f32, uv: f32| {
         let corners = [(-20.0, -2.0), (20.0, -2.0), (20.0, 2.0), (-20.0, 2.0)];
-        corners.map(|(x, y)| Vertex {
-            position: Vec3::new(x, y, z),
-            normal: Vec3::Z,
-            tangent: Vec3::X,
-            uv: Vec2::splat(uv),
-            occlusion: Vec2::ONE,
+        corners.map(|(x, y)| {
+            let (position, uv) = (Vec3::new(x, y, z), Vec2::splat(uv));
+            (Vertex { position, normal: Vec3::Z, uv, occlusion: Vec2::ONE }, Vec3::X)
         })
     };
-    let seen = |first: [Vertex; 4], second: [Vertex; 4]| {
+    let seen = |first: [(Vertex, Vec3); 4], second: [(Vertex, Vec3); 4]| {
         let triangles = vec![[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]];
         let drawing = drawing([first, second].concat(), triangles, None);
         let picture = draw(&drawing, &orthographic(130, 7), &Shading { samples: 4, ..plainly(Mode::Uv) });
@@ -316,13 +317,9 @@ fn torus(around: u32, across: u32, fabric: Arc<Amc>) -> Drawing {
         let turn = (k % across) as f32 * TAU / across as f32;
         let outwards = Vec3::new(angle.cos(), angle.sin(), 0.0);
         let normal = outwards * turn.cos() + Vec3::Z * turn.sin();
-        Vertex {
-            position: outwards * 0.65 + normal * 0.3,
-            normal,
-            tangent: Vec3::new(-angle.sin(), angle.cos(), 0.0),
-            uv: Vec2::ZERO,
-            occlusion: Vec2::ONE,
-        }
+        let position = outwards * 0.65 + normal * 0.3;
+        let tangent = Vec3::new(-angle.sin(), angle.cos(), 0.0);
+        (Vertex { position, normal, uv: Vec2::ZERO, occlusion: Vec2::ONE }, tangent)
     };
     let squares = (0..around).flat_map(|i| (0..across).map(move |j| (i, j)));
     let triangles = squares.flat_map(|(i, j)| {
@@ -381,7 +378,7 @@ fn what_cannot_be_drawn_is_refused_and_a_cancelled_picture_stops() {
     let flat = View { far: -2.0, ..orthographic(8, 8) };
     assert!(failed(&sheet, &flat, &shading).contains("far"));
     let mut stray = sheet.clone();
-    stray.triangles[1][2] = 9;
+    Arc::make_mut(&mut stray.triangles)[1][2] = 9;
     assert!(failed(&stray, &orthographic(8, 8), &shading).contains("triangle 1"));
 
     let flag = AtomicBool::new(true);
@@ -394,7 +391,7 @@ fn what_cannot_be_drawn_is_refused_and_a_cancelled_picture_stops() {
 fn positions_that_are_no_numbers_or_far_away_draw_nothing_and_do_no_harm() {
     for value in [f32::NAN, f32::INFINITY, 1e30, -1e38] {
         let mut sheet = full_screen(Vec3::Z, Vec3::X, None);
-        for vertex in &mut sheet.vertices[1..] {
+        for vertex in &mut Arc::make_mut(&mut sheet.vertices)[1..] {
             vertex.position *= value;
             vertex.normal *= value;
         }

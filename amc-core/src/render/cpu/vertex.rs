@@ -55,17 +55,18 @@ pub(super) struct VertexStage<'a> {
 }
 
 impl VertexStage<'_> {
-    /// All vertices, in their order.
-    pub(super) fn run(&self, vertices: &[Vertex]) -> Vec<Corner> {
+    /// All vertices with their tangents, in their order.
+    pub(super) fn run(&self, vertices: &[Vertex], tangents: &[Vec3]) -> Vec<Corner> {
         let clip = self.view.view_to_clip();
-        vertices.par_iter().with_min_len(1024).map(|vertex| self.corner(&clip, vertex)).collect()
+        let both = vertices.par_iter().zip(tangents).with_min_len(1024);
+        both.map(|(vertex, tangent)| self.corner(&clip, vertex, *tangent)).collect()
     }
 
-    fn corner(&self, view_to_clip: &Mat4, vertex: &Vertex) -> Corner {
+    fn corner(&self, view_to_clip: &Mat4, vertex: &Vertex, tangent: Vec3) -> Corner {
         let rotation = self.view.rotation();
         let p = self.view.object_to_view.transform_point3(vertex.position);
         let n = (rotation * vertex.normal).try_normalize().unwrap_or(Vec3::Z);
-        let t = rotation * vertex.tangent;
+        let t = rotation * tangent;
         let kappa = self.axis.map_or(Vec4::ZERO, |Axis { azimuth, symmetry }| {
             let t = perpendicular(t, n);
             vertex_kappa(self.view, self.perspective, azimuth, symmetry.order(), p, n, t)

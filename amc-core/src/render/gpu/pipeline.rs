@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::bindings::Bindings;
 use super::device::checked;
-use super::mesh::VERTEX_LAYOUT;
+use super::mesh::VERTEX_LAYOUTS;
 use super::mode::ShadingMode;
 use crate::render::{Cyclic, Perspective};
 use crate::shader::{Sources, validate};
@@ -157,7 +157,7 @@ fn create(
             module: &module.module,
             entry_point: Some("vertex_main"),
             compilation_options: compilation_options.clone(),
-            buffers: &[Some(VERTEX_LAYOUT)],
+            buffers: &VERTEX_LAYOUTS,
         },
         // Cloth is two-sided: nothing is culled.
         primitive: wgpu::PrimitiveState { front_face: wgpu::FrontFace::Ccw, ..Default::default() },

@@ -48,7 +48,7 @@ pub struct Scene {
 }
 
 /// A fabric of a scene.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct SceneFabric {
     amc: Arc<Amc>,
     texture: FabricTexture,
@@ -93,11 +93,7 @@ impl Renderer {
     /// # Errors
     /// Indices that point outside of it, or more than the device holds.
     pub fn prepare(&self, drawing: &Drawing) -> Result<Scene> {
-        drawing.check()?;
-        // Corners are counted in 32 bits.
-        if drawing.triangles.len() > (u32::MAX / 3) as usize {
-            return Err(Error::too_large(format!("{} triangles", drawing.triangles.len())));
-        }
+        check(drawing)?;
         let fabrics = drawing.fabrics.iter().map(|amc| self.fabric(amc)).collect::<Result<_>>()?;
         Ok(Scene {
             mesh: MeshBuffers::new(&self.device, &self.queue, drawing)?,
@@ -105,6 +101,49 @@ impl Renderer {
             draws: merged(drawing.draws.iter()),
             fabrics,
         })
+    }
+
+    /// Uploads a drawing beside `scene`, which stays: what both hold is shared.
+    ///
+    /// # Errors
+    /// As [`Renderer::prepare`].
+    pub fn prepare_beside(&self, scene: &Scene, drawing: &Drawing) -> Result<Scene> {
+        if !scene.mesh.has_shape_of(drawing) {
+            return self.prepare(drawing);
+        }
+        let mesh = scene.mesh.with_own_tangents(&self.device, &self.queue)?;
+        let (panels, draws, fabrics) = (Vec::new(), Vec::new(), scene.fabrics.clone());
+        let mut beside = Scene { mesh, panels, draws, fabrics };
+        self.update(&mut beside, drawing)?;
+        Ok(beside)
+    }
+
+    /// Makes `scene` one of `drawing`; of what it shares with the drawing before nothing is uploaded again, and of
+    /// changed tangents only those that differ. All panels are shown. Gives the number of bytes uploaded for the mesh.
+    ///
+    /// # Errors
+    /// As [`Renderer::prepare`]; the scene is then as it was.
+    pub fn update(&self, scene: &mut Scene, drawing: &Drawing) -> Result<u64> {
+        let has_its_shape = scene.mesh.has_shape_of(drawing);
+        if has_its_shape {
+            drawing.check_tangents()?;
+            drawing.check_draws()?;
+        } else {
+            check(drawing)?;
+        }
+        let known = |amc: &Arc<Amc>| scene.fabrics.iter().find(|it| Arc::ptr_eq(&it.amc, amc)).cloned();
+        let fabric = |amc| known(amc).map_or_else(|| self.fabric(amc), Ok);
+        let fabrics = drawing.fabrics.iter().map(fabric).collect::<Result<_>>()?;
+        let bytes = if has_its_shape {
+            scene.mesh.set_tangents(&self.queue, &drawing.tangents)
+        } else {
+            scene.mesh = MeshBuffers::new(&self.device, &self.queue, drawing)?;
+            scene.mesh.bytes()
+        };
+        scene.fabrics = fabrics;
+        scene.panels.clone_from(&drawing.draws);
+        scene.draws = merged(drawing.draws.iter());
+        Ok(bytes)
     }
 
     /// A place for one view.
@@ -244,6 +283,7 @@ impl SceneDrawData {
         }
         pass.set_bind_group(0, &self.eye, &[]);
         pass.set_vertex_buffer(0, self.mesh.vertices.slice(..));
+        pass.set_vertex_buffer(1, self.mesh.tangents.slice(..));
         pass.set_index_buffer(self.mesh.corners.slice(..), wgpu::IndexFormat::Uint32);
         for draw in &self.draws {
             pass.set_pipeline(&draw.pipeline);
@@ -253,6 +293,16 @@ impl SceneDrawData {
             pass.draw_indexed(draw.corners.clone(), 0, 0..1);
         }
     }
+}
+
+/// Whether a drawing can be drawn here.
+fn check(drawing: &Drawing) -> Result<()> {
+    drawing.check()?;
+    // Corners are counted in 32 bits.
+    if drawing.triangles.len() > (u32::MAX / 3) as usize {
+        return Err(Error::too_large(format!("{} triangles", drawing.triangles.len())));
+    }
+    Ok(())
 }
 
 /// The key of the pipeline that draws `mode`. Settings that the mode or the view does not look at are left at their

@@ -44,6 +44,7 @@ on_opengl!(
     normals_tangents_and_uvs_come_out_as_encoded_values,
     a_mode_from_outside_is_drawn_and_its_faults_are_told_by_line,
     a_target_without_srgb_gets_encoded_values,
+    a_changed_direction_uploads_only_what_changed,
     impossible_requests_are_refused,
 );
 
@@ -75,16 +76,25 @@ fn square(from: f32, to: f32, n: Vec3, t: Vec3) -> Drawing {
     let vertex = |x, y| Vertex {
         position: Vec3::new(x, y, 0.0),
         normal: n,
-        tangent: t,
         uv: Vec2::new(x, y),
         occlusion: Vec2::splat(0.5),
     };
     Drawing {
-        vertices: vec![vertex(from, -1.0), vertex(to, -1.0), vertex(to, 1.0), vertex(from, 1.0)],
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        vertices: vec![vertex(from, -1.0), vertex(to, -1.0), vertex(to, 1.0), vertex(from, 1.0)].into(),
+        tangents: vec![t; 4].into(),
+        triangles: vec![[0, 1, 2], [0, 2, 3]].into(),
         draws: vec![Draw { triangles: 0..2, cloth: Cloth::Fabric(0) }],
         fabrics: Vec::new(),
     }
+}
+
+/// Adds the vertices and triangles of another drawing.
+fn append(drawing: &mut Drawing, other: &Drawing) {
+    let first = drawing.vertices.len() as u32;
+    Arc::make_mut(&mut drawing.vertices).extend_from_slice(&other.vertices);
+    Arc::make_mut(&mut drawing.tangents).extend_from_slice(&other.tangents);
+    let triangles = other.triangles.iter().map(|corners| corners.map(|k| k + first));
+    Arc::make_mut(&mut drawing.triangles).extend(triangles);
 }
 
 fn view() -> View {
@@ -138,7 +148,7 @@ fn a_back_face_has_its_normal_negated_and_its_tangent_kept(gpu: &Gpu) {
     let n = Vec3::new(0.3, -0.4, 0.75f32.sqrt());
     let t = Azimuth::Transported.tangent(n, 0.3 * std::f32::consts::TAU);
     let mut drawing = square(-1.0, 1.0, -n, t);
-    drawing.triangles = vec![[0, 2, 1], [0, 3, 2]];
+    drawing.triangles = vec![[0, 2, 1], [0, 3, 2]].into();
     drawing.fabrics = vec![table(Symmetry::One, Azimuth::Transported, ramp)];
     for cyclic in [Cyclic::Naive, Cyclic::Cyclic, Cyclic::Fragment] {
         let shading = Shading { cyclic, ..shading(Mode::Amc) };
@@ -154,9 +164,7 @@ fn a_replaced_slice_changes_only_what_shows_it(gpu: &Gpu) {
         let from = -1.0 + 2.0 * s as f32 / SLICES as f32;
         let stripe =
             square(from, from + 2.0 / SLICES as f32, Vec3::Z, Azimuth::Transported.tangent(Vec3::Z, phi));
-        let first = drawing.vertices.len() as u32;
-        drawing.vertices.extend(stripe.vertices);
-        drawing.triangles.extend(stripe.triangles.iter().map(|corners| corners.map(|k| k + first)));
+        append(&mut drawing, &stripe);
     }
     drawing.draws = vec![Draw { triangles: 0..2 * SLICES, cloth: Cloth::Fabric(0) }];
     drawing.fabrics = vec![table(Symmetry::One, Azimuth::Transported, |_, share| [share, 0.25, 0.5])];
@@ -189,8 +197,7 @@ fn a_replaced_slice_changes_only_what_shows_it(gpu: &Gpu) {
 fn panels_wear_their_own_fabrics(gpu: &Gpu) {
     let mut drawing = square(-1.0, 0.0, Vec3::Z, Vec3::X);
     let right = square(0.0, 1.0, Vec3::Z, Vec3::X);
-    drawing.vertices.extend(right.vertices);
-    drawing.triangles.extend(right.triangles.iter().map(|corners| corners.map(|k| k + 4)));
+    append(&mut drawing, &right);
     drawing.draws.push(Draw { triangles: 2..3, cloth: Cloth::Fabric(1) });
     drawing.draws.push(Draw { triangles: 3..4, cloth: Cloth::Plain });
     let plain_red = table(Symmetry::One, Azimuth::Transported, |_, _| [1.0, 0.0, 0.0]);
@@ -258,7 +265,7 @@ fn the_mean_over_slices_is_the_isotropic_look(gpu: &Gpu) {
 /// A square before a camera, whose normals are `of` their view-space position.
 fn before_a_camera(of: impl Fn(Vec3) -> Vec3) -> (Drawing, View) {
     let mut drawing = square(-1.0, 1.0, Vec3::Z, Vec3::X);
-    for vertex in &mut drawing.vertices {
+    for vertex in Arc::make_mut(&mut drawing.vertices) {
         vertex.normal = of(vertex.position - Vec3::Z);
     }
     drawing.fabrics = vec![table(Symmetry::One, Azimuth::Transported, ramp)];
@@ -345,6 +352,53 @@ fn a_target_without_srgb_gets_encoded_values(gpu: &Gpu) {
     assert_eq!(middle[..3], expected);
 }
 
+fn a_changed_direction_uploads_only_what_changed(gpu: &Gpu) {
+    let along = |phi: f32| Azimuth::Transported.tangent(Vec3::Z, phi);
+    let mut drawing = square(-1.0, 0.0, Vec3::Z, along(0.1));
+    append(&mut drawing, &square(0.0, 1.0, Vec3::Z, along(0.1)));
+    drawing.draws.push(Draw { triangles: 2..4, cloth: Cloth::Fabric(0) });
+    drawing.fabrics = vec![table(Symmetry::One, Azimuth::Transported, |_, share| [share, 0.25, 0.5])];
+    let mut renderer = Renderer::new(&gpu.device, &gpu.queue);
+    let mut scene = renderer.prepare(&drawing).unwrap();
+    let (offscreen, eye) = (Offscreen::new(&gpu.device, 16, 16, 1).unwrap(), renderer.eye());
+    let picture = |scene: &mut Scene, renderer: &mut Renderer| {
+        let target = offscreen.target();
+        let frame = renderer.draw_data(scene, &eye, &view(), &shading(Mode::Amc), target).unwrap();
+        offscreen.picture(gpu, &frame, None).unwrap()
+    };
+    let mut turned = |drawing: &Drawing, bytes: u64| {
+        assert_eq!(renderer.update(&mut scene, drawing).unwrap(), bytes);
+        let seen = picture(&mut scene, &mut renderer);
+        let anew = renderer.prepare(drawing).and_then(|mut scene| Ok(picture(&mut scene, &mut renderer)));
+        assert!(seen == anew.unwrap());
+        seen
+    };
+    let before = turned(&drawing, 0);
+    // The right square: its four tangents of twelve bytes.
+    let mut tangents = drawing.tangents.to_vec();
+    tangents[4..].fill(along(2.0));
+    let other = drawing.dressed(tangents, drawing.fabrics.clone(), |_| Cloth::Fabric(0)).unwrap();
+    let after = turned(&other, 4 * 12);
+    assert!(before.pixel(4, 8) == after.pixel(4, 8) && before.pixel(12, 8) != after.pixel(12, 8));
+    // Another fabric and a plain panel: nothing of the mesh.
+    let blue = table(Symmetry::One, Azimuth::Transported, |_, _| [0.0, 0.0, 1.0]);
+    let cloth = |panel| if panel == 0 { Cloth::Fabric(1) } else { Cloth::Plain };
+    let fabrics = vec![Arc::clone(&drawing.fabrics[0]), blue];
+    let blue = turned(&other.dressed(other.tangents.to_vec(), fabrics, cloth).unwrap(), 0);
+    assert_eq!(blue.pixel(4, 8), [0.0, 0.0, 1.0, 1.0]);
+    // Another mesh: all of it.
+    turned(
+        &square(-1.0, 1.0, Vec3::Z, along(1.0))
+            .dressed(vec![along(1.0); 4], vec![], |_| Cloth::Plain)
+            .unwrap(),
+        4 * (40 + 12) + 24,
+    );
+    // Two at once: each keeps its own directions.
+    let mut one = renderer.prepare(&drawing).unwrap();
+    let mut two = renderer.prepare_beside(&one, &other).unwrap();
+    assert!(picture(&mut two, &mut renderer) == after && picture(&mut one, &mut renderer) == before);
+}
+
 fn impossible_requests_are_refused(gpu: &Gpu) {
     let drawing = square(-1.0, 1.0, Vec3::Z, Vec3::X);
     let says = |drawing: &Drawing, view: &View, shading: &Shading| {
@@ -352,7 +406,7 @@ fn impossible_requests_are_refused(gpu: &Gpu) {
     };
     let amc = shading(Mode::Amc);
     assert!(says(&drawing, &view(), &amc).contains("panel 0: fabric 0"));
-    let beyond = Drawing { triangles: vec![[0, 1, 4], [0, 2, 3]], ..drawing.clone() };
+    let beyond = Drawing { triangles: vec![[0, 1, 4], [0, 2, 3]].into(), ..drawing.clone() };
     assert!(says(&beyond, &view(), &amc).contains("triangle 0: refers to a vertex"));
     let plain = Drawing { draws: vec![Draw { triangles: 0..3, cloth: Cloth::Plain }], ..drawing };
     assert!(says(&plain, &view(), &amc).contains("panel 0: triangles 0 to 3"));

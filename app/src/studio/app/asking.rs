@@ -12,14 +12,15 @@ impl App {
     pub(super) fn ask(&mut self, purpose: Purpose) {
         if self.dialog.is_none() {
             let name = files::suggested_name(self.desk.document.project());
-            self.dialog = Some(Dialog::open(purpose, &name, &mut self.jobs));
+            let file = self.desk.file.as_deref();
+            self.dialog = Some(Dialog::open(purpose, (&name, file), self.has_dialogs, &mut self.jobs));
         }
     }
 
     /// Does what a dialog was for.
-    pub(super) fn answered(&mut self) {
-        let Some(dialog) = &self.dialog else { return };
-        let Some(answer) = dialog.poll() else { return };
+    pub(super) fn answered(&mut self, ui: &egui::Ui) {
+        let Some(dialog) = &mut self.dialog else { return };
+        let Some(answer) = dialog.poll(ui) else { return };
         let purpose = dialog.purpose.clone();
         self.dialog = None;
         match (answer, purpose) {
