@@ -60,7 +60,7 @@ fn places(garment: &Path) -> Places {
     let fabrics = harness.get_all_by_label("Fabrics").next().unwrap().rect().center();
     harness.get_all_by_label("Fabrics").next().unwrap().click();
     settle(&mut harness);
-    let fabric = harness.get_by_label_contains("changeant").rect().center();
+    let fabric = harness.get_by_label_contains("Changeant").rect().center();
     // Within its edges, which may lie between pixels.
     let view = view.shrink(1.0);
     Places { view, fabrics, fabric, aside: pos2(width / 2.0, 12.0) }
