@@ -3,19 +3,25 @@
 use std::fmt;
 use std::str::FromStr;
 
+use serde::{Deserialize, Serialize};
+
 use crate::{Error, Result};
 
 /// The length that a mesh file's 1 stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Unit {
     /// 1 m: the default, and what glTF demands.
     #[default]
+    #[serde(rename = "m")]
     Metre,
     /// 0.1 m: MakeHuman.
+    #[serde(rename = "dm")]
     Decimetre,
     /// 0.01 m.
+    #[serde(rename = "cm")]
     Centimetre,
     /// 0.001 m: most pattern programs.
+    #[serde(rename = "mm")]
     Millimetre,
 }
 

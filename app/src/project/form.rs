@@ -5,6 +5,7 @@ use std::path::Path;
 
 use amc_core::Result;
 use amc_core::direction::{Direction, Source};
+use amc_core::mesh::Unit;
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
 use studio_plugin::document::{Asset, FabricId, FabricInUse, PanelChoice, Project, ViewSettings};
@@ -17,6 +18,7 @@ use super::paths;
 pub(super) struct ProjectForm {
     version: u32,
     garment: AssetForm,
+    unit: Unit,
     fabrics: Vec<FabricForm>,
     panels: BTreeMap<String, PanelForm>,
     plugins: BTreeMap<String, Value>,
@@ -35,6 +37,7 @@ impl Default for ProjectForm {
         Self {
             version: super::VERSION,
             garment,
+            unit: Unit::Metre,
             fabrics: Vec::new(),
             panels: BTreeMap::new(),
             plugins,
@@ -106,6 +109,7 @@ impl ProjectForm {
         Ok(Self {
             version: super::VERSION,
             garment: AssetForm::new(&project.garment, folder)?,
+            unit: project.unit,
             fabrics: fabrics.collect::<Result<_>>()?,
             panels: panels.collect(),
             plugins: project.plugins.clone(),
@@ -127,6 +131,7 @@ impl ProjectForm {
         });
         Project {
             garment: self.garment.into_asset(folder),
+            unit: self.unit,
             fabrics: fabrics.collect(),
             panels: panels.collect(),
             plugins: self.plugins,

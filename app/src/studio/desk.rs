@@ -31,6 +31,7 @@ pub(super) struct Desk {
     lock: Option<ProjectLock>,
     autosave: Option<Autosave>,
     opening: Option<(PathBuf, Job<Opened>)>,
+    recovering: Option<(Recoverable, Job<Opened>)>,
     saving: Option<(PathBuf, Snapshot, Job<()>)>,
 }
 
@@ -50,6 +51,7 @@ impl Desk {
             lock: None,
             autosave: None,
             opening: None,
+            recovering: None,
             saving: None,
         };
         match desk.folders.clone() {
@@ -83,7 +85,7 @@ impl Desk {
 
     /// Whether a project is being opened or saved.
     pub(super) fn is_busy(&self) -> bool {
-        self.opening.is_some() || self.saving.is_some()
+        self.opening.is_some() || self.recovering.is_some() || self.saving.is_some()
     }
 
     /// Begins anew, with the default project.
@@ -110,13 +112,24 @@ impl Desk {
         self.saving = Some((path.to_owned(), snapshot, job));
     }
 
-    /// Takes back what a dead session left.
-    pub(super) fn recover(&mut self, index: usize, notices: &mut Notices) {
+    /// Starts to take back what a dead session left.
+    pub(super) fn recover(&mut self, index: usize, jobs: &mut Jobs) {
         let work = self.recoverable.remove(index);
+        let (disk, read) = (Arc::clone(&self.disk), work.read.clone());
+        let folder = work.belongs_to.as_deref().and_then(Path::parent).map(Path::to_owned);
+        let job = jobs.start("Taking the work back", move |progress| {
+            Opened::recovered(disk.as_ref(), read, folder.as_deref(), progress)
+        });
+        self.recovering = Some((work, job));
+    }
+
+    fn recovered(&mut self, work: Recoverable, opened: Opened, notices: &mut Notices) {
+        opened.notices.iter().for_each(|notice| notices.note(notice));
         let file = work.belongs_to.clone();
-        let mut document = Document::new(work.read.project.clone());
+        let mut document = Document::new(opened.project);
         document.mark_unsaved();
-        self.replace(document, file.clone(), work.read.unknown.clone());
+        self.replace(document, file.clone(), opened.unknown);
+        self.missing = opened.missing;
         if let Some(autosave) = &self.autosave {
             autosave.adopt(work, file.as_deref());
         }
@@ -156,6 +169,17 @@ impl Desk {
             match result {
                 Ok(opened) => self.opened(path, opened, notices),
                 Err(error) => notices.failed(error),
+            }
+        }
+        if let Some(result) = self.recovering.as_ref().and_then(|(_, job)| job.poll())
+            && let Some((work, _)) = self.recovering.take()
+        {
+            match result {
+                Ok(opened) => self.recovered(work, opened, notices),
+                Err(error) => {
+                    notices.failed(error);
+                    self.recoverable.push(work);
+                }
             }
         }
         let saved = self

@@ -8,13 +8,16 @@ use amc_core::Result;
 use amc_core::amc::Amc;
 use amc_core::direction::{self, Direction};
 use amc_core::mesh::{Garment, Picker, Unit};
-use amc_core::render::{Cloth, Drawing};
+use amc_core::render::{Bounds, Cloth, Drawing};
 use eframe::egui::ColorImage;
 use studio_plugin::document::{Asset, FabricId, Project};
 use studio_plugin::{Job, Jobs, Notices, Registry, Stage};
 
 use super::thumbnail;
 use crate::scene::{load_fabric, load_garment, vertex_occlusion};
+
+/// How large things are that people wear or lay out, metres.
+const LIKELY_SIZES: std::ops::RangeInclusive<f64> = 0.05..=8.0;
 
 /// Keeps what is drawn in step with the document.
 #[derive(Debug, Default)]
@@ -24,7 +27,7 @@ pub(super) struct Stager {
     pub(super) drawn: Drawn,
     /// What is drawn right of the divider of a split view, where that is not the same.
     pub(super) compared: Drawn,
-    garment: Loading<Asset, Loaded>,
+    garment: Loading<(Asset, Unit), Loaded>,
     /// What darkens the folds takes longest, and comes when the garment is seen already.
     shaded: Option<Job<Arc<Drawing>>>,
     fabrics: BTreeMap<FabricId, Loading<Asset, (Arc<Amc>, ColorImage)>>,
@@ -106,11 +109,12 @@ impl Stager {
     }
 
     fn update_garment(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
-        if self.garment.wanted.as_ref() != Some(&project.garment) {
-            let asset = project.garment.clone();
-            self.garment.wanted = Some(asset.clone());
-            self.garment.job =
-                Some(jobs.start(format!("Opening {}", asset.name()), move |_| Loaded::new(&asset)));
+        let wanted = (project.garment.clone(), project.unit);
+        if self.garment.wanted.as_ref() != Some(&wanted) {
+            let (asset, unit) = wanted.clone();
+            self.garment.wanted = Some(wanted);
+            let load = move |_: &amc_core::Progress<'_>| Loaded::new(&asset, unit);
+            self.garment.job = Some(jobs.start(format!("Opening {}", project.garment.name()), load));
         }
         if let Some(result) = self.garment.job.as_ref().and_then(Job::poll) {
             self.garment.job = None;
@@ -118,6 +122,9 @@ impl Stager {
                 Ok(loaded) => {
                     self.shaded = Some(loaded.start_shading(&project.garment, jobs));
                     for notice in &loaded.garment.notices {
+                        notices.note(notice);
+                    }
+                    if let Some(notice) = unlikely_size(&loaded.garment) {
                         notices.note(notice);
                     }
                     self.stage.garment = Some(Arc::clone(&loaded.garment));
@@ -211,8 +218,8 @@ impl Drawn {
 }
 
 impl Loaded {
-    fn new(asset: &Asset) -> Result<Self> {
-        let garment = load_garment(&path(asset), Unit::Metre)?;
+    fn new(asset: &Asset, unit: Unit) -> Result<Self> {
+        let garment = load_garment(&path(asset), unit)?;
         let tangents = garment.normals.clone();
         let plain = Drawing::new(&garment, tangents, None, Vec::new(), |_| Cloth::Plain)?;
         let picker = Picker::new(&plain)?;
@@ -244,6 +251,16 @@ impl Recipe {
         let fabrics = self.fabrics.values().cloned().collect();
         self.loaded.plain.dressed(tangents.vectors, fabrics, cloth)
     }
+}
+
+/// What to say of a garment that nobody could wear: most likely its numbers are no metres.
+fn unlikely_size(garment: &Garment) -> Option<String> {
+    let size = 2.0 * Bounds::of(&garment.positions).ok()?.radius;
+    (!LIKELY_SIZES.contains(&size)).then(|| {
+        format!(
+            "the garment is {size:.2} m large: if its file counts in another unit, say so in the pane 'Panel', where no panel is selected"
+        )
+    })
 }
 
 /// Every panel's fabric, where it is loaded, and direction.

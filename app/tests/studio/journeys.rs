@@ -189,6 +189,27 @@ fn the_guide_and_the_licences_can_be_read() {
 }
 
 #[test]
+fn an_obj_file_is_taken_in_the_unit_that_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    // A square of 500 millimetres.
+    let file = folder.path().join("square.obj");
+    let text =
+        "v 0 0 0\nv 500 0 0\nv 500 500 0\nv 0 500 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+    amc_core::file::save_bytes(&file, text.as_bytes()).unwrap();
+    let mut harness = window(Studio::new().open([file]), folder.path());
+    click(&mut harness, "Log");
+    assert!(reads(&harness, &["is 707.11 m large"]));
+    click(&mut harness, "Unit of the file");
+    click(&mut harness, "mm");
+    assert_eq!(harness.state().document().undo_name(), Some("Take the garment's numbers as mm"));
+    harness.get_by(|node| node.label().is_some_and(|label| label.starts_with("panel "))).click();
+    settle(&mut harness);
+    assert!(reads(&harness, &["2500 cm2"]));
+    press(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert!(!reads(&harness, &["2500 cm2"]));
+}
+
+#[test]
 fn where_there_are_no_dialogs_a_path_is_typed() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("typed.amcproj");

@@ -59,6 +59,8 @@ impl ViewportView<'_> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use amc_core::render::{Cloth, Draw, Drawing, Projection, Vertex};
     use glam::Mat4;
 
@@ -66,14 +68,11 @@ mod tests {
 
     #[test]
     fn points_of_the_garment_and_of_the_window_belong_together() {
-        let vertex = |(x, y)| {
-            let position = Vec3::new(x, y, 0.0);
-            Vertex { position, normal: Vec3::Z, ..Vertex::default() }
-        };
+        let vertex = |(x, y)| Vertex { position: Vec3::new(x, y, 0.0), normal: Vec3::Z, ..Vertex::default() };
         let drawing = Drawing {
-            vertices: [(0.0, 0.0), (0.5, 0.0), (0.0, 0.5)].map(vertex).to_vec().into(),
-            tangents: vec![Vec3::X; 3].into(),
-            triangles: vec![[0, 1, 2]].into(),
+            vertices: Arc::new([(0.0, 0.0), (0.5, 0.0), (0.0, 0.5)].map(vertex).to_vec()),
+            tangents: Arc::new(vec![Vec3::X; 3]),
+            triangles: Arc::new(vec![[0, 1, 2]]),
             draws: vec![Draw { triangles: 0..1, cloth: Cloth::Plain }],
             fabrics: Vec::new(),
         };

@@ -66,7 +66,7 @@ impl App {
         // One at a time: what is taken back would take the place of what is not saved yet.
         let offered = if self.desk.document.is_changed() { &[] } else { self.desk.recoverable.as_slice() };
         match questions::recovery(ui, offered) {
-            Some(OfRecovery::Recover(index)) => self.desk.recover(index, &mut self.notices),
+            Some(OfRecovery::Recover(index)) => self.desk.recover(index, &mut self.jobs),
             Some(OfRecovery::Discard(index)) => self.desk.discard(index, &mut self.notices),
             None => {}
         }

@@ -1,7 +1,7 @@
 //! The selected panels: fabric, direction, what the file says of them.
 
 use amc_core::direction::{Direction, Source};
-use amc_core::mesh::{Garment, Panel};
+use amc_core::mesh::{Garment, Panel, Unit};
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 use studio_plugin::document::{Edit, Gesture};
 use studio_plugin::{Command, Context, Pane, Place, Plugin};
@@ -81,6 +81,7 @@ impl Plugin for Inspector {
             (0, _) => {
                 ui.heading("All panels");
                 ui.weak("Click a panel in the view or in the list to change it alone.");
+                unit(ui, studio);
             }
             (1, [panel]) => facts(ui, panel, &garment),
             (count, _) => {
@@ -98,6 +99,27 @@ impl Plugin for Inspector {
                 self.run(command.id, studio);
             }
         }
+    }
+}
+
+/// What the numbers of the garment's file mean. Bundled garments are in metres.
+fn unit(ui: &mut egui::Ui, studio: &mut Context<'_>) {
+    let project = studio.document.project();
+    if project.garment.path().is_none() {
+        return;
+    }
+    let mut unit = project.unit;
+    ui.horizontal(|ui| {
+        let label = ui.label("Unit of the file");
+        let list = egui::ComboBox::from_id_salt("unit").selected_text(unit.symbol()).show_ui(ui, |ui| {
+            for each in Unit::ALL {
+                ui.selectable_value(&mut unit, each, each.symbol());
+            }
+        });
+        list.response.labelled_by(label.id).on_hover_text("What the numbers in it mean");
+    });
+    if unit != project.unit {
+        studio.submit(Edit::SetUnit(unit));
     }
 }
 

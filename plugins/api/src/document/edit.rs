@@ -4,6 +4,7 @@ use std::f32::consts::{PI, TAU};
 use std::path::PathBuf;
 
 use amc_core::direction::Direction;
+use amc_core::mesh::Unit;
 use amc_core::{Error, Result};
 use serde_json::Value;
 
@@ -12,8 +13,10 @@ use super::{Asset, FabricId, FabricInUse, PanelChoice, Project};
 /// One change of a project. Panels are named by their ids.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Edit {
-    /// Another garment. What was chosen for panels stays, by their ids.
+    /// Another garment, in metres until something else is said. What was chosen for panels stays, by their ids.
     SetGarment(Asset),
+    /// What the numbers of the garment's file mean.
+    SetUnit(Unit),
     /// One fabric more, at the end of those in use.
     AddFabric(FabricInUse),
     /// One fabric less: panels it was chosen for wear the default again.
@@ -73,7 +76,8 @@ impl Edit {
     /// The edit speaks of a fabric or a file that `project` does not have.
     pub(super) fn apply(self, project: &mut Project) -> Result<()> {
         match self {
-            Self::SetGarment(garment) => project.garment = garment,
+            Self::SetGarment(garment) => (project.garment, project.unit) = (garment, Unit::Metre),
+            Self::SetUnit(unit) => project.unit = unit,
             Self::AddFabric(fabric) => project.fabrics.push(fabric),
             Self::RemoveFabric(id) => remove_fabric(project, id)?,
             Self::SetFabric { panels, fabric } => {

@@ -16,6 +16,7 @@ impl Edit {
     pub fn name(&self, project: &Project) -> String {
         match self {
             Self::SetGarment(garment) => format!("Change the garment to {}", garment.name()),
+            Self::SetUnit(unit) => format!("Take the garment's numbers as {unit}"),
             Self::AddFabric(fabric) => format!("Add {}", fabric.name),
             Self::RemoveFabric(id) => format!("Remove {}", fabric_name(project, *id)),
             Self::SetFabric { panels, fabric: Some(id) } => {

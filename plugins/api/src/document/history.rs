@@ -290,6 +290,7 @@ fn next_number() -> u64 {
 }
 
 fn is_same_but_view(a: &Project, b: &Project) -> bool {
-    let Project { garment, fabrics, panels, plugins, view: _, notes } = a;
-    (garment, fabrics, panels, plugins, notes) == (&b.garment, &b.fabrics, &b.panels, &b.plugins, &b.notes)
+    let Project { garment, unit, fabrics, panels, plugins, view: _, notes } = a;
+    (garment, unit, fabrics, panels, plugins, notes)
+        == (&b.garment, &b.unit, &b.fabrics, &b.panels, &b.plugins, &b.notes)
 }

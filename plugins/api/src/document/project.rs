@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use amc_core::direction::{Direction, Field, Source};
-use amc_core::mesh::Panel;
+use amc_core::mesh::{Panel, Unit};
 use amc_core::{Error, Result};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -18,6 +18,8 @@ use super::{Asset, FabricId, FabricInUse, ViewSettings};
 pub struct Project {
     /// The garment: a file, `garment:NAME` or `shape:NAME`.
     pub garment: Asset,
+    /// What the numbers of the garment's file mean. (glTF demands metres; not every file obeys.)
+    pub unit: Unit,
     /// The fabrics in use, in the order they were added. The first is worn wherever nobody has chosen.
     pub fabrics: Vec<FabricInUse>,
     /// What was chosen for each panel, by its id. A panel that is not listed is all as by default.
@@ -69,6 +71,7 @@ impl Default for Project {
         };
         Self {
             garment: Asset::Bundled("garment:shirt".to_owned()),
+            unit: Unit::Metre,
             fabrics: vec![satin],
             panels: BTreeMap::new(),
             plugins: BTreeMap::new(),

@@ -1,6 +1,8 @@
 //! Random sequences of 10,000 commands against a plain model: a list of all projects there were, and for each edit what
 //! it does to a handful of panels.
 
+use amc_core::mesh::Unit;
+
 use super::super::{Asset, Document, Edit, FabricId, Gesture, Project};
 use super::{at, fabric, turn};
 
@@ -28,6 +30,7 @@ impl Random {
 #[derive(Debug, Clone, PartialEq)]
 struct Plain {
     garment: String,
+    unit: Unit,
     fabrics: Vec<u32>,
     /// Per panel: chosen fabric (-2 default, -1 grey), angle, visible.
     panels: [(i64, Option<f32>, bool); PANELS.len()],
@@ -41,6 +44,7 @@ impl Plain {
         let panels = [(-2, None, true); PANELS.len()];
         Self {
             garment: "garment:shirt".to_owned(),
+            unit: Unit::Metre,
             fabrics: vec![0],
             panels,
             notes: String::new(),
@@ -63,6 +67,7 @@ impl Plain {
         looks
             && fabrics == self.fabrics
             && project.garment == Asset::Bundled(self.garment.clone())
+            && project.unit == self.unit
             && project.notes == self.notes
             && project.plugins.get("counting").and_then(|state| state.as_u64())
                 == self.kept.map(|it| it as u64)
@@ -73,8 +78,9 @@ impl Plain {
         let mut after = self.clone();
         let chosen: Vec<usize> = (0..PANELS.len()).filter(|_| random.chance(2)).collect();
         let names: Vec<String> = chosen.iter().map(|&k| PANELS[k].to_owned()).collect();
-        let edit = match random.below(9) {
+        let edit = match random.below(10) {
             0 => {
+                after.unit = Unit::Metre;
                 after.garment = ["garment:shirt", "shape:sheet", "garment:scarf"][random.below(3)].to_owned();
                 Edit::SetGarment(Asset::Bundled(after.garment.clone()))
             }
@@ -129,6 +135,10 @@ impl Plain {
                 let visible = random.chance(2);
                 chosen.iter().for_each(|&k| after.panels[k].2 = visible);
                 Edit::SetVisible { panels: names, visible }
+            }
+            8 => {
+                after.unit = Unit::ALL[random.below(Unit::ALL.len())];
+                Edit::SetUnit(after.unit)
             }
             7 => {
                 after.notes = "lore ".repeat(random.below(4));
