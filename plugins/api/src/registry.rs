@@ -37,6 +37,7 @@ impl Registered {
         studio: &mut Context<'_>,
         call: impl FnOnce(&mut dyn Plugin, &mut Context<'_>) -> T,
     ) -> Option<T> {
+        studio.plugin = self.plugin.id();
         let outcome = self.guarded(|plugin| call(plugin, studio))?;
         if outcome.is_none() {
             self.tell_off(studio.notices);
