@@ -1,6 +1,6 @@
 //! What is wanted of a garment: pictures of which kind, how large, in which file.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use amc_core::image::stream::{self, Timing};
 use amc_core::render::{Shading, View};
@@ -39,7 +39,7 @@ pub(crate) struct Order {
 
 impl Order {
     /// Whether a file of this name can hold what is wanted.
-    pub(crate) fn check_file(kind: &Kind, file: &std::path::Path) -> Result<()> {
+    pub(crate) fn check_file(kind: &Kind, file: &Path) -> Result<()> {
         match kind {
             Kind::Still | Kind::Views(_) => StillFormat::of(file).map(|_| ()),
             Kind::Turn(_) => MovingFormat::of(file).map(|_| ()),

@@ -4,6 +4,7 @@ mod form;
 mod settings;
 
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use amc_core::mesh::Garment;
 use amc_core::render::{Bounds, Cloth, Drawing, Shading};
@@ -32,6 +33,9 @@ struct Running {
     name: String,
     file: PathBuf,
 }
+
+/// How long the window waits, when it closes, for exports to stop and to remove what they have begun.
+const FAREWELL: Duration = Duration::from_secs(2);
 
 const STILLS: &[FileKind] = &[FileKind { name: "Pictures", suffixes: STILL_SUFFIXES }];
 const TURNS: &[FileKind] = &[FileKind { name: "Animations", suffixes: MOVING_SUFFIXES }];
@@ -127,6 +131,18 @@ fn ask(what: What, studio: &mut Context<'_>) {
         What::Turn => ("Save the turn", format!("{garment}-turn.gif"), TURNS),
     };
     studio.ask_where(Ask { id: what.id(), title: title.to_owned(), name, kinds });
+}
+
+impl Drop for Export {
+    fn drop(&mut self) {
+        let deadline = Instant::now() + FAREWELL;
+        self.running.iter().for_each(|running| running.job.cancel());
+        for running in &self.running {
+            while running.job.poll().is_none() && Instant::now() < deadline {
+                std::thread::sleep(Duration::from_millis(5));
+            }
+        }
+    }
 }
 
 impl Export {
