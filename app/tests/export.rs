@@ -34,7 +34,7 @@ fn window(folder: &Path, settings: &str) -> Harness<'static, App> {
 
 /// Types where to save, over what is suggested (which is `name`), and presses the button.
 fn save_as(harness: &mut Harness<'_, App>, name: &str, file: &Path) {
-    harness.run_steps(2);
+    harness.run_steps(5);
     let field = harness.get_by_label_contains("A file that ends in");
     assert!(field.value().is_some_and(|text| text.ends_with(name)), "{:?}", field.value());
     harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
@@ -152,7 +152,7 @@ fn the_form_says_how_large_and_a_dialog_called_off_does_nothing() {
     harness.get_by_label("A colour").click();
     settle(&mut harness);
     harness.get_by_label("Export ...").click();
-    harness.run_steps(2);
+    harness.run_steps(5);
     harness.get_by_label("Cancel").click();
     settle(&mut harness);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "what is kept, and nothing else");
