@@ -4,7 +4,7 @@ use amc_core::amc::{Amc, Frame, Symmetry, TableSize, Texels};
 use amc_core::render::gpu::{Backend, Gpu, Renderer, TargetFormat};
 use amc_core::render::{Cloth, Draw, Drawing, Projection, Shading, Vertex, View};
 use amc_core::view_space::Azimuth;
-use glam::{Mat4, Vec3};
+use glam::{Mat4, Vec2, Vec3};
 
 fn main() -> amc_core::Result<()> {
     // Any wgpu device and queue will do; this one needs no window.
@@ -14,7 +14,8 @@ fn main() -> amc_core::Result<()> {
     let slice = |s: u8| vec![[255 - 32 * s, 32 * s, 64, 255]; 16 * 16];
     let (size, texels) = (TableSize::new(16, 8)?, Texels::Srgb8((0..8).flat_map(slice).collect()));
     let amc = Amc::new(size, texels, Symmetry::Two, Azimuth::Transported, Frame::Half)?;
-    let corner = |x, y| Vertex { position: Vec3::new(x, y, 0.0), normal: Vec3::Z, ..Vertex::default() };
+    let (normal, shift) = (Vec3::Z, Vec2::ZERO);
+    let corner = |x, y| Vertex { position: Vec3::new(x, y, 0.0), normal, ..Vertex::default() };
     let drawing = Drawing {
         vertices: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(0.0, 1.0)].into(),
         tangents: vec![Vec3::X; 3].into(),
@@ -24,7 +25,7 @@ fn main() -> amc_core::Result<()> {
     };
     let projection = Projection::Perspective { fov_y: 1.0 };
     let object_to_view = Mat4::from_translation(Vec3::new(0.0, 0.0, -3.0));
-    let view = View { object_to_view, projection, width: 256, height: 256, near: 0.1, far: 10.0 };
+    let view = View { object_to_view, projection, width: 256, height: 256, near: 0.1, far: 10.0, shift };
     let shading = Shading { occlusion: false, ..Shading::default() };
 
     // Once per device, once per mesh, once per frame; for the attachments that the pass has.

@@ -259,6 +259,7 @@ impl App {
             Request::GoTo(position) => self.desk.document.go_to(position),
             Request::View(view) => self.desk.document.set_view(view),
             Request::Copy(text) => self.context.copy_text(text),
+            Request::AskWhere(plugin, ask) => self.ask(Purpose::Where(plugin, ask)),
         }
     }
 

@@ -1,12 +1,11 @@
 //! From the document to what is drawn, in jobs: garment and fabrics loaded, directions and vertices made.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use amc_core::Result;
 use amc_core::amc::Amc;
-use amc_core::direction::{self, Direction};
 use amc_core::mesh::{Garment, Picker, Unit};
 use amc_core::render::{Bounds, Cloth, Drawing};
 use eframe::egui::ColorImage;
@@ -14,7 +13,9 @@ use studio_plugin::document::{Asset, FabricId, Project};
 use studio_plugin::{Job, Jobs, Notices, Registry, Stage};
 
 use super::thumbnail;
-use crate::scene::{load_fabric, load_garment, vertex_occlusion};
+use crate::scene::{
+    DocumentLook, asset_path, document_looks, dressed, load_fabric, load_garment, vertex_occlusion,
+};
 
 /// How large things are that people wear or lay out, metres.
 const LIKELY_SIZES: std::ops::RangeInclusive<f64> = 0.05..=8.0;
@@ -71,7 +72,7 @@ struct Loaded {
 #[derive(Debug, Clone)]
 struct Recipe {
     loaded: Loaded,
-    looks: Vec<(Option<FabricId>, Direction)>,
+    looks: Vec<DocumentLook>,
     fabrics: BTreeMap<FabricId, Arc<Amc>>,
 }
 
@@ -155,7 +156,7 @@ impl Stager {
                 let asset = fabric.asset.clone();
                 loading.wanted = Some(asset.clone());
                 loading.job = Some(jobs.start(format!("Opening {}", fabric.name), move |progress| {
-                    let amc = load_fabric(&path(&asset), progress)?;
+                    let amc = load_fabric(&asset_path(&asset), progress)?;
                     let ball = thumbnail::ball(&amc);
                     Ok((Arc::new(amc), ball))
                 }));
@@ -176,7 +177,7 @@ impl Stager {
     fn update_drawings(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
         let recipe = self.loaded.as_ref().map(|loaded| Recipe {
             loaded: loaded.clone(),
-            looks: looks(project, &loaded.garment, &self.stage.fabrics),
+            looks: document_looks(project, &loaded.garment, |id| self.stage.fabrics.contains_key(&id)),
             fabrics: self.stage.fabrics.clone(),
         });
         let compared = project.view.compared.as_ref().filter(|compared| compared.changes_panels());
@@ -219,7 +220,7 @@ impl Drawn {
 
 impl Loaded {
     fn new(asset: &Asset, unit: Unit) -> Result<Self> {
-        let garment = load_garment(&path(asset), unit)?;
+        let garment = load_garment(&asset_path(asset), unit)?;
         let tangents = garment.normals.clone();
         let plain = Drawing::new(&garment, tangents, None, Vec::new(), |_| Cloth::Plain)?;
         let picker = Picker::new(&plain)?;
@@ -241,15 +242,7 @@ impl Loaded {
 
 impl Recipe {
     fn drawing(&self) -> Result<Drawing> {
-        let garment = &self.loaded.garment;
-        let directions: Vec<Direction> = self.looks.iter().map(|look| look.1).collect();
-        let tangents = direction::tangents(garment, &directions)?;
-        let numbers: BTreeMap<FabricId, usize> = self.fabrics.keys().copied().zip(0..).collect();
-        let cloth = |panel: usize| {
-            self.looks[panel].0.and_then(|id| numbers.get(&id)).map_or(Cloth::Plain, |&n| Cloth::Fabric(n))
-        };
-        let fabrics = self.fabrics.values().cloned().collect();
-        self.loaded.plain.dressed(tangents.vectors, fabrics, cloth)
+        dressed(&self.loaded.plain, &self.loaded.garment, &self.looks, &self.fabrics)
     }
 }
 
@@ -261,28 +254,6 @@ fn unlikely_size(garment: &Garment) -> Option<String> {
             "the garment is {size:.2} m large: if its file counts in another unit, say so in the pane 'Panel', where no panel is selected"
         )
     })
-}
-
-/// Every panel's fabric, where it is loaded, and direction.
-fn looks(
-    project: &Project,
-    garment: &Garment,
-    loaded: &BTreeMap<FabricId, Arc<Amc>>,
-) -> Vec<(Option<FabricId>, Direction)> {
-    let look = |panel: &amc_core::mesh::Panel| {
-        let look = project.look_of(panel);
-        let fabric = look.fabric.filter(|id| loaded.contains_key(id));
-        (fabric, look.direction.unwrap_or_else(|| Direction::along_grain(panel)))
-    };
-    garment.panels.iter().map(look).collect()
-}
-
-/// What the loaders know an asset by.
-fn path(asset: &Asset) -> PathBuf {
-    match asset {
-        Asset::Bundled(name) => PathBuf::from(name),
-        Asset::File { path, .. } => path.clone(),
-    }
 }
 
 /// The end of a file's name by which it is known, and what it then is.
