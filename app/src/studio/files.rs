@@ -11,6 +11,7 @@ use studio_plugin::{FileKind, Job};
 
 use super::path_field::PathField;
 use super::stager::{Kind, kind};
+use super::texts::files as words;
 use crate::project::SUFFIX;
 
 /// What a dialog is for.
@@ -100,19 +101,17 @@ pub(super) fn with_suffix(path: PathBuf, purpose: &Purpose) -> PathBuf {
 
 #[cfg(feature = "dialogs")]
 fn ask_system(purpose: Purpose, name: String, jobs: &mut Jobs) -> Job<Option<PathBuf>> {
-    jobs.start("Choosing a file", move |_| {
+    jobs.start(words::CHOOSING, move |_| {
         let dialog = rfd::FileDialog::new();
         Ok(match purpose {
-            Purpose::Find(missing) => {
-                dialog.set_title(format!("Where is {}?", missing.display())).pick_file()
-            }
+            Purpose::Find(missing) => dialog.set_title(words::where_is(missing.display())).pick_file(),
             Purpose::Open => dialog
-                .add_filter("All that can be opened", &["amcproj", "glb", "gltf", "obj", "ktx2"])
-                .add_filter("Projects", &["amcproj"])
-                .add_filter("Garments", &["glb", "gltf", "obj"])
-                .add_filter("Fabrics", &["ktx2"])
+                .add_filter(words::ALL_KINDS, &["amcproj", "glb", "gltf", "obj", "ktx2"])
+                .add_filter(words::PROJECTS, &["amcproj"])
+                .add_filter(words::GARMENTS, &["glb", "gltf", "obj"])
+                .add_filter(words::FABRICS, &["ktx2"])
                 .pick_file(),
-            Purpose::Save => dialog.add_filter("Projects", &["amcproj"]).set_file_name(name).save_file(),
+            Purpose::Save => dialog.add_filter(words::PROJECTS, &["amcproj"]).set_file_name(name).save_file(),
             Purpose::Where(_, ask) => {
                 let dialog = dialog.set_title(ask.title).set_file_name(ask.name);
                 let add =

@@ -119,7 +119,7 @@ fn words(purpose: &Purpose) -> (&str, String) {
         Purpose::Save => (texts::SAVE_TITLE, texts::SAVE_TEXT.to_owned()),
         Purpose::Where(_, ask) => {
             let kinds = ask.kinds.iter().flat_map(|kind| kind.suffixes).map(|suffix| format!(".{suffix}"));
-            (&ask.title, format!("A file that ends in {}", kinds.collect::<Vec<_>>().join(", ")))
+            (&ask.title, texts::files::ends_in(&kinds.collect::<Vec<_>>().join(", ")))
         }
         Purpose::Find(missing) => (texts::FIND_TITLE, missing.display().to_string()),
     }

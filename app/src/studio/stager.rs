@@ -12,6 +12,7 @@ use eframe::egui::ColorImage;
 use studio_plugin::document::{Asset, FabricId, Project};
 use studio_plugin::{Job, Jobs, Notices, Registry, Stage};
 
+use super::texts::notices as words;
 use super::thumbnail;
 use crate::scene::{
     DocumentLook, asset_path, document_looks, dressed, load_fabric, load_garment, vertex_occlusion,
@@ -115,7 +116,7 @@ impl Stager {
             let (asset, unit) = wanted.clone();
             self.garment.wanted = Some(wanted);
             let load = move |_: &amc_core::Progress<'_>| Loaded::new(&asset, unit);
-            self.garment.job = Some(jobs.start(format!("Opening {}", project.garment.name()), load));
+            self.garment.job = Some(jobs.start(words::opening(project.garment.name()), load));
         }
         if let Some(result) = self.garment.job.as_ref().and_then(Job::poll) {
             self.garment.job = None;
@@ -155,7 +156,7 @@ impl Stager {
             if loading.wanted.as_ref() != Some(&fabric.asset) {
                 let asset = fabric.asset.clone();
                 loading.wanted = Some(asset.clone());
-                loading.job = Some(jobs.start(format!("Opening {}", fabric.name), move |progress| {
+                loading.job = Some(jobs.start(words::opening(&fabric.name), move |progress| {
                     let amc = load_fabric(&asset_path(&asset), progress)?;
                     let ball = thumbnail::ball(&amc);
                     Ok((Arc::new(amc), ball))
@@ -213,7 +214,7 @@ impl Drawn {
         // One at a time: what has changed meanwhile is drawn next.
         if self.job.is_none() && self.of.as_ref() != Some(&recipe) {
             self.of = Some(recipe.clone());
-            self.job = Some(jobs.start("Directions", move |_| recipe.drawing()));
+            self.job = Some(jobs.start(words::DIRECTIONS, move |_| recipe.drawing()));
         }
     }
 }
@@ -233,7 +234,7 @@ impl Loaded {
     /// The plain drawing with the occlusion of every vertex.
     fn start_shading(&self, asset: &Asset, jobs: &mut Jobs) -> Job<Arc<Drawing>> {
         let (garment, plain) = (Arc::clone(&self.garment), Arc::clone(&self.plain));
-        jobs.start(format!("Shading the folds of {}", asset.name()), move |progress| {
+        jobs.start(words::shading(asset.name()), move |progress| {
             let occlusion = vertex_occlusion(&garment, progress)?;
             plain.with_occlusion(&occlusion).map(Arc::new)
         })
@@ -249,11 +250,7 @@ impl Recipe {
 /// What to say of a garment that nobody could wear: most likely its numbers are no metres.
 fn unlikely_size(garment: &Garment) -> Option<String> {
     let size = 2.0 * Bounds::of(&garment.positions).ok()?.radius;
-    (!LIKELY_SIZES.contains(&size)).then(|| {
-        format!(
-            "the garment is {size:.2} m large: if its file counts in another unit, say so in the pane 'Panel', where no panel is selected"
-        )
-    })
+    (!LIKELY_SIZES.contains(&size)).then(|| super::texts::files::unlikely_size(size))
 }
 
 /// The end of a file's name by which it is known, and what it then is.

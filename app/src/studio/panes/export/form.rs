@@ -6,6 +6,7 @@ use studio_plugin::JobView;
 
 use super::settings::{Background, SIDES, Settings, What};
 use crate::pictures::SIDE_LIMIT;
+use crate::studio::texts::export as texts;
 use crate::studio::theme::STEP;
 
 /// Sizes by name, pixels.
@@ -13,20 +14,20 @@ const PRESETS: [(&str, [u32; 2]); 8] = [
     ("640 x 640", [640, 640]),
     ("1024 x 1024", [1024, 1024]),
     ("2048 x 2048", [2048, 2048]),
-    ("HD, 1920 x 1080", [1920, 1080]),
-    ("4K, 3840 x 2160", [3840, 2160]),
-    ("A4 upright, 300 dpi", [2480, 3508]),
-    ("A3 upright, 300 dpi", [3508, 4961]),
-    ("A1 upright, 300 dpi", [7016, 9933]),
+    (texts::HD, [1920, 1080]),
+    (texts::FOUR_K, [3840, 2160]),
+    (texts::A4, [2480, 3508]),
+    (texts::A3, [3508, 4961]),
+    (texts::A1, [7016, 9933]),
 ];
 
 /// Shows the form; whether the export is asked for.
 pub(super) fn show(ui: &mut egui::Ui, settings: &mut Settings, has_garment: bool) -> bool {
     ui.horizontal(|ui| {
         for (what, name, tooltip) in [
-            (What::Picture, "Picture", "The view as it is"),
-            (What::Views, "Contact sheet", "The garment from several sides, in one picture"),
-            (What::Turn, "Turn", "One turn about the garment's vertical axis, as GIF or animated PNG"),
+            (What::Picture, texts::PICTURE, texts::PICTURE_TIP),
+            (What::Views, texts::VIEWS, texts::VIEWS_TIP),
+            (What::Turn, texts::TURN, texts::TURN_TIP),
         ] {
             ui.radio_value(&mut settings.what, what, name).on_hover_text(tooltip);
         }
@@ -46,11 +47,11 @@ pub(super) fn show(ui: &mut egui::Ui, settings: &mut Settings, has_garment: bool
             }
         });
     }
-    ui.checkbox(&mut settings.smooth, "Smooth edges").on_hover_text("Four samples per pixel in place of one");
+    ui.checkbox(&mut settings.smooth, texts::SMOOTH).on_hover_text(texts::SMOOTH_TIP);
     let has_sides = settings.what != What::Views || settings.sides.contains(&true);
     ui.add_space(STEP);
-    let button = ui.add_enabled(has_garment && has_sides, egui::Button::new("Export ..."));
-    button.on_hover_text("Asks where to save it; the work goes on meanwhile").clicked()
+    let button = ui.add_enabled(has_garment && has_sides, egui::Button::new(texts::BUTTON));
+    button.on_hover_text(texts::BUTTON_TIP).clicked()
 }
 
 /// An export that is under way.
@@ -58,7 +59,7 @@ pub(super) fn show_running(ui: &mut egui::Ui, name: &str, view: Option<&JobView>
     ui.add_space(STEP);
     ui.label(name);
     ui.horizontal(|ui| {
-        if ui.button("Cancel").on_hover_text(format!("Stops '{name}'; nothing is left of it")).clicked() {
+        if ui.button(texts::CANCEL).on_hover_text(texts::stops(name)).clicked() {
             cancel();
         }
         match view.and_then(|view| view.share) {
@@ -71,11 +72,11 @@ pub(super) fn show_running(ui: &mut egui::Ui, name: &str, view: Option<&JobView>
 fn size(ui: &mut egui::Ui, settings: &mut Settings) {
     let sides = &mut settings.sizes[settings.what as usize];
     let label = ui.label(match settings.what {
-        What::Picture => "Size",
-        What::Views => "Size of a view",
-        What::Turn => "Size of a frame",
+        What::Picture => texts::SIZE,
+        What::Views => texts::VIEW_SIZE,
+        What::Turn => texts::FRAME_SIZE,
     });
-    let shown = PRESETS.iter().find(|(_, preset)| preset == sides).map_or("Other", |(name, _)| name);
+    let shown = PRESETS.iter().find(|(_, preset)| preset == sides).map_or(texts::OTHER, |(name, _)| name);
     let list = egui::ComboBox::from_id_salt("size").selected_text(shown).show_ui(ui, |ui| {
         for (name, preset) in PRESETS {
             ui.selectable_value(sides, preset, name);
@@ -83,7 +84,7 @@ fn size(ui: &mut egui::Ui, settings: &mut Settings) {
     });
     list.response.labelled_by(label.id);
     ui.end_row();
-    for (name, side) in ["Width", "Height"].into_iter().zip(sides) {
+    for (name, side) in [texts::WIDTH, texts::HEIGHT].into_iter().zip(sides) {
         let label = ui.label(name);
         let field = DragValue::new(side).range(1..=SIDE_LIMIT).speed(4.0).suffix(" px");
         ui.add(field).labelled_by(label.id);
@@ -98,11 +99,11 @@ fn background(ui: &mut egui::Ui, settings: &mut Settings) {
         Background::View | Background::None => [255; 3],
     };
     let choices = [
-        (Background::View, "As in the view", "Transparent where the view has no background of its own"),
-        (Background::None, "Transparent", "In a GIF pixels are clear or covered, nothing between"),
-        (Background::Colour(colour), "A colour", "The same colour everywhere"),
+        (Background::View, texts::AS_VIEW, texts::AS_VIEW_TIP),
+        (Background::None, texts::TRANSPARENT, texts::TRANSPARENT_TIP),
+        (Background::Colour(colour), texts::COLOUR, texts::COLOUR_TIP),
     ];
-    let label = ui.label("Background");
+    let label = ui.label(texts::BACKGROUND);
     let shown = choices.iter().find(|choice| choice.0 == *background).map_or("", |choice| choice.1);
     ui.horizontal(|ui| {
         let list = egui::ComboBox::from_id_salt("background").selected_text(shown).show_ui(ui, |ui| {
@@ -119,15 +120,15 @@ fn background(ui: &mut egui::Ui, settings: &mut Settings) {
 }
 
 fn turn(ui: &mut egui::Ui, settings: &mut Settings) {
-    let label = ui.label("Frames");
+    let label = ui.label(texts::FRAMES);
     let field = DragValue::new(&mut settings.frames).range(1..=Timing::MOST_FRAMES);
-    ui.add(field).labelled_by(label.id).on_hover_text("How many pictures the turn is made of");
+    ui.add(field).labelled_by(label.id).on_hover_text(texts::FRAMES_TIP);
     ui.end_row();
-    let label = ui.label("Frames per second");
+    let label = ui.label(texts::PER_SECOND);
     let field = DragValue::new(&mut settings.per_second).range(1..=Timing::FASTEST);
     ui.add(field).labelled_by(label.id);
     ui.end_row();
-    ui.label("Takes");
+    ui.label(texts::TAKES);
     ui.label(format!("{:.1} s", f64::from(settings.frames) / f64::from(settings.per_second.max(1))));
     ui.end_row();
 }

@@ -17,6 +17,7 @@ use studio_plugin::{Ask, Command, Context, FileKind, Job, Pane, Place, Plugin};
 use self::settings::{Settings, What};
 use crate::pictures::{Device, MOVING_SUFFIXES, Order, Painter, STILL_SUFFIXES, Stand};
 use crate::scene::{document_looks, dressed, hidden_panels, vertex_occlusion};
+use crate::studio::texts::export as texts;
 
 /// The export's form, and what is being exported.
 #[derive(Debug, Default)]
@@ -37,21 +38,17 @@ struct Running {
 /// How long the window waits, when it closes, for exports to stop and to remove what they have begun.
 const FAREWELL: Duration = Duration::from_secs(2);
 
-const STILLS: &[FileKind] = &[FileKind { name: "Pictures", suffixes: STILL_SUFFIXES }];
-const TURNS: &[FileKind] = &[FileKind { name: "Animations", suffixes: MOVING_SUFFIXES }];
+const STILLS: &[FileKind] = &[FileKind { name: texts::PICTURES, suffixes: STILL_SUFFIXES }];
+const TURNS: &[FileKind] = &[FileKind { name: texts::ANIMATIONS, suffixes: MOVING_SUFFIXES }];
 
 const fn command(what: What, name: &'static str, tooltip: &'static str) -> Command {
     Command { id: what.id(), name, tooltip, shortcut: None }
 }
 
 const COMMANDS: [Command; 3] = [
-    command(
-        What::Picture,
-        "Export picture ...",
-        "Saves the view as PNG or OpenEXR, in the size of the Export pane",
-    ),
-    command(What::Views, "Export contact sheet ...", "Saves the garment from several sides in one picture"),
-    command(What::Turn, "Export turn ...", "Saves one turn of the garment as GIF or animated PNG"),
+    command(What::Picture, texts::EXPORT_PICTURE, texts::EXPORT_PICTURE_TIP),
+    command(What::Views, texts::EXPORT_VIEWS, texts::EXPORT_VIEWS_TIP),
+    command(What::Turn, texts::EXPORT_TURN, texts::EXPORT_TURN_TIP),
 ];
 
 impl Plugin for Export {
@@ -60,7 +57,7 @@ impl Plugin for Export {
     }
 
     fn name(&self) -> &'static str {
-        "Export"
+        texts::NAME
     }
 
     fn commands(&self) -> Vec<Command> {
@@ -78,7 +75,7 @@ impl Plugin for Export {
     }
 
     fn panes(&self) -> Vec<Pane> {
-        vec![Pane { id: "form", title: "Export", place: Place::Right }]
+        vec![Pane { id: "form", title: texts::NAME, place: Place::Right }]
     }
 
     fn show(&mut self, _pane: &str, ui: &mut egui::Ui, studio: &mut Context<'_>) {
@@ -102,9 +99,9 @@ impl Plugin for Export {
         self.running.retain(|Running { job, file, .. }| {
             match job.poll() {
                 None => return true,
-                Some(Ok(())) => notices.done(format!("exported: {}", file.display())),
+                Some(Ok(())) => notices.done(texts::exported(file.display())),
                 Some(Err(error)) if error.is_cancelled() => {
-                    notices.note(format!("the export was cancelled: {}", file.display()));
+                    notices.note(texts::cancelled(file.display()));
                 }
                 Some(Err(error)) => notices.failed(error),
             }
@@ -126,9 +123,9 @@ impl Plugin for Export {
 fn ask(what: What, studio: &mut Context<'_>) {
     let garment = studio.document.project().garment.name();
     let (title, name, kinds) = match what {
-        What::Picture => ("Save the picture", format!("{garment}.png"), STILLS),
-        What::Views => ("Save the contact sheet", format!("{garment}-views.png"), STILLS),
-        What::Turn => ("Save the turn", format!("{garment}-turn.gif"), TURNS),
+        What::Picture => (texts::SAVE_PICTURE, format!("{garment}.png"), STILLS),
+        What::Views => (texts::SAVE_VIEWS, format!("{garment}-views.png"), STILLS),
+        What::Turn => (texts::SAVE_TURN, format!("{garment}-turn.gif"), TURNS),
     };
     studio.ask_where(Ask { id: what.id(), title: title.to_owned(), name, kinds });
 }
@@ -153,7 +150,7 @@ impl Export {
             return studio.notices.failed(error);
         }
         let Some(garment) = studio.stage.garment.clone() else {
-            return studio.notices.failed("there is no garment to export: open one first");
+            return studio.notices.failed(texts::NO_GARMENT);
         };
         let project = studio.document.project().clone();
         let fabrics = studio.stage.fabrics.clone();
@@ -175,7 +172,7 @@ impl Export {
             let file = file.to_owned();
             move |stand| Order { kind, stand, size, shading, file }
         };
-        let name = format!("Exporting {}", file.file_name().unwrap_or(file.as_os_str()).to_string_lossy());
+        let name = texts::exporting(file.file_name().unwrap_or(file.as_os_str()).to_string_lossy());
         let job = studio.jobs.start(name.clone(), move |progress| {
             let order = order(stand(&project, &garment)?);
             let looks = document_looks(&project, &garment, |id| fabrics.contains_key(&id));

@@ -9,6 +9,7 @@ use serde_json::Value;
 use studio_plugin::document::NamedView;
 
 use crate::pictures::{Kind, SIDE_LIMIT, Size};
+use crate::studio::texts::export as texts;
 
 /// What is exported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -53,12 +54,12 @@ pub(super) enum Background {
 
 /// The sides a contact sheet can show, and what they are called, in the order that it shows them.
 pub(super) const SIDES: [(NamedView, &str); 6] = [
-    (NamedView::Front, "Front"),
-    (NamedView::Right, "Right"),
-    (NamedView::Back, "Back"),
-    (NamedView::Left, "Left"),
-    (NamedView::Top, "Top"),
-    (NamedView::Bottom, "Bottom"),
+    (NamedView::Front, texts::FRONT),
+    (NamedView::Right, texts::RIGHT),
+    (NamedView::Back, texts::BACK),
+    (NamedView::Left, texts::LEFT),
+    (NamedView::Top, texts::TOP),
+    (NamedView::Bottom, texts::BOTTOM),
 ];
 
 /// The form.
