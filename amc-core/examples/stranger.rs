@@ -14,8 +14,7 @@ fn main() -> amc_core::Result<()> {
     let slice = |s: u8| vec![[255 - 32 * s, 32 * s, 64, 255]; 16 * 16];
     let (size, texels) = (TableSize::new(16, 8)?, Texels::Srgb8((0..8).flat_map(slice).collect()));
     let amc = Amc::new(size, texels, Symmetry::Two, Azimuth::Transported, Frame::Half)?;
-    let (normal, shift) = (Vec3::Z, Vec2::ZERO);
-    let corner = |x, y| Vertex { position: Vec3::new(x, y, 0.0), normal, ..Vertex::default() };
+    let corner = |x, y| Vertex { position: Vec3::new(x, y, 0.0), normal: Vec3::Z, ..Vertex::default() };
     let drawing = Drawing {
         vertices: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(0.0, 1.0)].into(),
         tangents: vec![Vec3::X; 3].into(),
@@ -23,7 +22,7 @@ fn main() -> amc_core::Result<()> {
         draws: vec![Draw { triangles: 0..1, cloth: Cloth::Fabric(0) }],
         fabrics: vec![amc.into()],
     };
-    let projection = Projection::Perspective { fov_y: 1.0 };
+    let (projection, shift) = (Projection::Perspective { fov_y: 1.0 }, Vec2::ZERO);
     let object_to_view = Mat4::from_translation(Vec3::new(0.0, 0.0, -3.0));
     let view = View { object_to_view, projection, width: 256, height: 256, near: 0.1, far: 10.0, shift };
     let shading = Shading { occlusion: false, ..Shading::default() };

@@ -12,8 +12,8 @@ use amc_core::{Progress, Result};
 #[cfg(feature = "gpu")]
 const GPU_PIXELS: u32 = 1 << 20;
 
-/// The most columns drawn at once by the reference renderer.
-const CPU_COLUMNS: u32 = View::SIDE_LIMIT;
+/// The most pixels drawn at once by the reference renderer: 256 MiB of them.
+const CPU_PIXELS: u32 = 1 << 24;
 
 /// What is drawn with.
 #[derive(Debug, Clone)]
@@ -95,7 +95,7 @@ impl Painter {
     /// The most columns that it draws at once where it draws so many rows.
     pub(super) fn columns(&self, rows: u32) -> u32 {
         match &self.0 {
-            Means::Cpu(_) => CPU_COLUMNS,
+            Means::Cpu(_) => (CPU_PIXELS / rows.max(1)).min(View::SIDE_LIMIT),
             #[cfg(feature = "gpu")]
             Means::Gpu(on) => (GPU_PIXELS / rows.max(1)).min(on.gpu.device.limits().max_texture_dimension_2d),
         }
