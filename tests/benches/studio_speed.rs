@@ -32,7 +32,7 @@ const IDLE: f64 = 0.005;
 /// How long idling is watched.
 const IDLING: Duration = Duration::from_secs(10);
 /// After the garment was shown, until the last jobs have ended.
-const SETTLING: Duration = Duration::from_secs(6);
+const SETTLING: Duration = Duration::from_secs(10);
 /// How long anything may take before it counts as hung.
 const PATIENCE: Duration = Duration::from_secs(600);
 

@@ -87,7 +87,7 @@ impl Window {
         let mut program = command.spawn().expect("the program starts");
         let (send, milestones) = channel();
         let lines = BufReader::new(program.stdout.take().expect("its output is a pipe")).lines();
-        std::thread::spawn(move || {
+        let listen = move || {
             // It ends with the program, or when nobody listens.
             for line in lines.map_while(Result::ok) {
                 let line: serde_json::Value = serde_json::from_str(&line).unwrap_or_default();
@@ -96,7 +96,8 @@ impl Window {
                     break;
                 }
             }
-        });
+        };
+        std::thread::Builder::new().name("milestones".to_owned()).spawn(listen).expect("a thread");
         Self { program, started, milestones }
     }
 

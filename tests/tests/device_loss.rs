@@ -44,11 +44,12 @@ fn main() -> ExitCode {
 }
 
 fn window() {
-    std::thread::spawn(|| {
+    let watch = || {
         std::thread::sleep(PATIENCE);
         println!("the window hangs");
         std::process::exit(2);
-    });
+    };
+    std::thread::Builder::new().name("patience".to_owned()).spawn(watch).unwrap();
     let folder = tempfile::tempdir().unwrap();
     Studio::new().with_plugin(Saboteur::default()).keeping_in(folder.path()).run().unwrap();
     unreachable!("the saboteur ends the process");
