@@ -4,7 +4,7 @@ use amc_core::amc::{Amc, Frame, Symmetry, TableSize, Texels};
 use amc_core::render::gpu::{Backend, Gpu, Renderer, TargetFormat};
 use amc_core::render::{Cloth, Draw, Drawing, Projection, Shading, Vertex, View};
 use amc_core::view_space::Azimuth;
-use glam::{Mat4, Vec3};
+use glam::{Mat4, Vec2, Vec3};
 
 fn main() -> amc_core::Result<()> {
     // Any wgpu device and queue will do; this one needs no window.
@@ -22,9 +22,9 @@ fn main() -> amc_core::Result<()> {
         draws: vec![Draw { triangles: 0..1, cloth: Cloth::Fabric(0) }],
         fabrics: vec![amc.into()],
     };
-    let projection = Projection::Perspective { fov_y: 1.0 };
+    let (projection, shift) = (Projection::Perspective { fov_y: 1.0 }, Vec2::ZERO);
     let object_to_view = Mat4::from_translation(Vec3::new(0.0, 0.0, -3.0));
-    let view = View { object_to_view, projection, width: 256, height: 256, near: 0.1, far: 10.0 };
+    let view = View { object_to_view, projection, width: 256, height: 256, near: 0.1, far: 10.0, shift };
     let shading = Shading { occlusion: false, ..Shading::default() };
 
     // Once per device, once per mesh, once per frame; for the attachments that the pass has.

@@ -1,7 +1,7 @@
 //! Reading whole files under a limit, and saving without ever leaving half a file.
 
 use std::fs::File;
-use std::io::{BufWriter, Read, Write};
+use std::io::{BufWriter, Read, Seek, Write};
 use std::path::Path;
 
 use crate::{Error, Result};
@@ -33,6 +33,19 @@ pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>> {
 /// # Errors
 /// `write` failed, or the operating system refused; the error names the file and what stood there is untouched.
 pub fn save(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+    save_seekable(path, |out| write(out))
+}
+
+/// What can be written and gone back in.
+pub trait WriteSeek: Write + Seek {}
+
+impl<T: Write + Seek> WriteSeek for T {}
+
+/// As [`save`], for formats that are written here and there: tables at their start that are known at the end.
+///
+/// # Errors
+/// As [`save`].
+pub fn save_seekable(path: &Path, write: impl FnOnce(&mut dyn WriteSeek) -> Result<()>) -> Result<()> {
     let folder = match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),

@@ -1,17 +1,25 @@
-//! A scene from the command line: a garment, its panels' fabrics and directions, ready to draw.
+//! A scene: a garment, its panels' fabrics and directions, ready to draw. From a project, or from the command line.
 
 mod bundled;
 mod fabric;
 mod garment;
 mod look;
+mod open;
 mod panel_option;
+mod project;
+#[cfg(feature = "window")]
+mod staged;
 
 pub(crate) use fabric::Fabrics;
 #[cfg(feature = "window")]
 pub(crate) use fabric::load_fabric;
 pub(crate) use garment::load_garment;
-pub(crate) use look::{PanelLook, directions, panel_looks};
+pub(crate) use look::{PanelLook, StartingLook, directions, panel_looks};
+pub(crate) use open::{Scene, open_scene};
 pub(crate) use panel_option::PanelOption;
+pub(crate) use project::{asset_path, hidden_panels, is_project, starting_looks};
+#[cfg(feature = "window")]
+pub(crate) use staged::{DocumentLook, document_looks, dressed};
 
 use amc_core::mesh::Garment;
 use amc_core::render::{Cloth, Drawing};

@@ -224,8 +224,7 @@ fn what_is_not_there_yet_is_refused_as_such() {
     let folder = scratch();
     let here = folder.path();
     for arguments in [
-        &["render", "a.amcproj", "-o", "a.png"][..],
-        &["render", "shape:torus", "-o", "a.png", "--shading", "lines"],
+        &["render", "shape:torus", "-o", "a.png", "--shading", "lines"][..],
         &["microfacet", "fit", "x"],
         &["capture", "-o", "x", "--turntable", "sim:"],
         &["shaders", "x"],
@@ -238,6 +237,10 @@ fn what_is_not_there_yet_is_refused_as_such() {
     for arguments in [
         &["render", "shape:torus"][..],
         &["render", "shape:torus", "-o", "a.bmp"],
+        &["render", "shape:torus", "-o", "a.gif"],
+        &["render", "shape:torus", "-o", "a.exr", "--turn-frames", "4"],
+        &["render", "shape:torus", "-o", "a.png", "--views", "inside"],
+        &["render", "shape:torus", "-o", "a.png", "--views", "front", "--turn-frames", "4"],
         &["render", "shape:torus", "-o", "a.png", "--size", "0x0"],
         &["render", "shape:torus", "-o", "a.png", "--shading", "gold"],
         &["render", "shape:torus", "-o", "a.png", "--panel", "all,angle=north"],
@@ -264,6 +267,11 @@ fn bad_input_gives_one_line_that_names_file_and_reason() {
     write("empty.glb", b"");
     write("cut.glb", b"glTF\x02\x00\x00\x00\xff\xff\xff\x7f");
     write("noise.amc.ktx2", &[7; 300]);
+    write("half.amcproj", b"{\"version\": 1,");
+    write(
+        "bare.amcproj",
+        br#"{"version": 1, "garment": "shape:torus", "fabrics": [{"id": 0, "asset": {"path": "gone.amc.ktx2"}}]}"#,
+    );
     write("camera.json", b"{\"world_to_view\": [1, 2]}");
     write(
         "reflectance.json",
@@ -271,6 +279,15 @@ fn bad_input_gives_one_line_that_names_file_and_reason() {
     );
     for (arguments, names) in [
         (&["inspect", "missing.obj"][..], "missing.obj"),
+        (&["inspect", "missing.amcproj"], "missing.amcproj"),
+        (&["render", "missing.amcproj", "-o", "a.png"], "missing.amcproj"),
+        (&["render", "half.amcproj", "-o", "a.png"], "half.amcproj: line 1, column"),
+        (&["render", "bare.amcproj", "-o", "a.png", "--renderer", "cpu"], "gone.amc.ktx2"),
+        (&["render", "shape:torus", "-o", "a.gif", "--turn-frames", "0"], "0 frames"),
+        (
+            &["render", "shape:torus", "-o", "a.png", "--views", "front,back", "--size", "20000x9"],
+            "40000 x 9",
+        ),
         (&["inspect", "point.obj"], "point.obj"),
         (&["inspect", "nan.obj"], "nan.obj"),
         (&["inspect", "index.obj"], "index.obj"),
@@ -347,4 +364,127 @@ fn bad_pictures_give_one_line_each() {
         assert!(message.contains(names), "{source}: {message}");
         assert!(!here.join("a.amc.ktx2").exists());
     }
+}
+
+#[test]
+fn a_project_is_rendered_as_its_looks_and_its_view_say() {
+    let folder = scratch();
+    let here = folder.path();
+    let satin = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/fabrics/satin.json");
+    done(here, &["bake", satin, "-o", "cloth.amc.ktx2", "--size", "32", "--slices", "16"]);
+    let id = json(here, &["inspect", "shape:torus"])["panels"][0]["id"].as_str().unwrap().to_owned();
+    // 30 degrees about y. The second fabric is nowhere to be found, but nobody wears it.
+    let (sin, cos) = 15_f64.to_radians().sin_cos();
+    let project = serde_json::json!({
+        "version": 1,
+        "garment": "shape:torus",
+        "fabrics": [
+            {"id": 3, "name": "Cloth", "asset": {"path": "cloth.amc.ktx2"}},
+            {"id": 4, "name": "Lost", "asset": {"path": "lost.amc.ktx2"}},
+        ],
+        "panels": {&id: {"direction": {"angle_deg": 60.0}}},
+        "view": {"orientation": [0.0, sin, 0.0, cos], "background": [16, 32, 48], "cyclic": "fragment"},
+    });
+    amc_core::file::save_bytes(&here.join("mine.amcproj"), project.to_string().as_bytes()).unwrap();
+    let size = ["--size", "200x160", "--occlusion", "off"];
+    let render = |scene: &str, options: &[&str]| {
+        done(here, &[&["render", scene, "-o", "a.png"], &size[..], options].concat());
+        amc_core::image::decode::read(&here.join("a.png")).unwrap()
+    };
+    let psnr = |a: &amc_core::image::Picture, b: &amc_core::image::Picture| {
+        amc_core::image::compare::psnr_srgb(a, b).unwrap()
+    };
+    let asked = |degrees: &str, yaw: &str, background: &str| {
+        let panel = format!("all,angle={degrees}");
+        let cloth = ["--amc", "cloth.amc.ktx2", "--panel", &panel, "--yaw", yaw, "--background", background];
+        render("shape:torus", &[&cloth[..], &["--cyclic", "fragment"]].concat())
+    };
+    let as_it_is = render("mine.amcproj", &[]);
+    assert!(psnr(&as_it_is, &asked("60", "30", "102030")) > 60.0);
+    assert!(psnr(&as_it_is, &asked("0", "30", "102030")) < 40.0, "the angle counts");
+    // What is asked for wins, the rest stays.
+    let changed = render("mine.amcproj", &["--panel", "all,angle=0", "--yaw", "0", "--background", "ffffff"]);
+    assert!(psnr(&changed, &asked("0", "0", "ffffff")) > 60.0);
+    let changeant = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/fabrics/changeant.json");
+    done(here, &["bake", changeant, "-o", "other.amc.ktx2", "--size", "32", "--slices", "16"]);
+    let exchanged = render("mine.amcproj", &["--amc", "other.amc.ktx2"]);
+    assert!(psnr(&as_it_is, &exchanged) < 30.0);
+    let by_cpu = render("mine.amcproj", &["--renderer", "cpu"]);
+    assert!(psnr(&as_it_is, &by_cpu) > 45.0);
+
+    let held = json(here, &["inspect", "mine.amcproj"]);
+    assert_eq!((&held["kind"], &held["garment"]["bundled"]), (&"project".into(), &"shape:torus".into()));
+    assert_eq!(held["fabrics"][0]["missing"], false);
+    assert_eq!((&held["fabrics"][1]["missing"], &held["fabrics"][1]["id"]), (&true.into(), &4.into()));
+    assert_eq!(held["panels"][0]["id"], *id);
+    assert!((held["panels"][0]["angle_deg"].as_f64().unwrap() - 60.0).abs() < 1e-4);
+    assert_eq!(held["view"]["background"], serde_json::json!([16, 32, 48]));
+
+    done(here, &["tangents", "mine.amcproj", "-o", "t.json"]);
+    let text = std::fs::read_to_string(here.join("t.json")).unwrap();
+    let angle = serde_json::from_str::<Value>(&text).unwrap()["panels"][0]["angle_deg"].as_f64().unwrap();
+    assert!((angle - 60.0).abs() < 1e-4);
+}
+
+#[test]
+fn a_hidden_panel_is_not_in_the_picture() {
+    let folder = scratch();
+    let here = folder.path();
+    let covered = |visible: bool, renderer: &str| {
+        let project = serde_json::json!({
+            "version": 1,
+            "garment": "garment:shirt",
+            "panels": {"back": {"visible": visible}},
+            "view": {"orientation": [0.0, 1.0, 0.0, 0.0], "mode": "uv", "lens": {"perspective": {"focal_length_mm": 85.0}}},
+        });
+        amc_core::file::save_bytes(&here.join("a.amcproj"), project.to_string().as_bytes()).unwrap();
+        let options = ["--size", "120x160", "--samples", "1", "--occlusion", "off", "--renderer", renderer];
+        done(here, &[&["render", "a.amcproj", "-o", "a.png"], &options[..]].concat());
+        let picture = amc_core::image::decode::read(&here.join("a.png")).unwrap();
+        picture
+            .pixels()
+            .iter()
+            .map(|pixel| pixel.map(|value| value.to_bits()))
+            .collect::<std::collections::HashSet<_>>()
+    };
+    // Seen from behind, another panel's pattern stands where the back's did.
+    assert_ne!(covered(true, "cpu"), covered(false, "cpu"));
+    assert_ne!(covered(true, "gpu"), covered(false, "gpu"));
+}
+
+#[test]
+fn contact_sheets_and_turns_are_made_without_a_window() {
+    let folder = scratch();
+    let here = folder.path();
+    let satin = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/fabrics/satin.json");
+    done(here, &["bake", satin, "-o", "cloth.amc.ktx2", "--size", "32", "--slices", "16"]);
+    let cloth = ["--amc", "cloth.amc.ktx2", "--occlusion", "off", "--renderer", "cpu"];
+    let told = |options: &[&str]| json(here, &[&["render", "shape:torus"], options, &cloth[..]].concat());
+    let sheet = told(&["-o", "sheet.png", "--views", "front,top", "--size", "60x40"]);
+    assert_eq!((&sheet["views"], &sheet["frames"]), (&2.into(), &Value::Null));
+    let sheet = amc_core::image::decode::read(&here.join("sheet.png")).unwrap();
+    assert_eq!((sheet.width(), sheet.height()), (120, 40));
+    told(&["-o", "top.png", "--pitch", "90", "--size", "60x40"]);
+    let top = amc_core::image::decode::read(&here.join("top.png")).unwrap();
+    let (mut same, mut all) = (0, 0);
+    for (x, y) in (0..40).flat_map(|y| (0..60).map(move |x| (x, y))) {
+        same += usize::from(sheet.pixel(60 + x, y) == top.pixel(x, y));
+        all += 1;
+    }
+    assert!(same * 1000 >= all * 999, "{same} of {all}");
+
+    let turn = told(&["-o", "turn.gif", "--turn-frames", "5", "--fps", "10", "--size", "40x40"]);
+    assert_eq!((&turn["frames"], &turn["views"]), (&5.into(), &Value::Null));
+    let gif = std::fs::read(here.join("turn.gif")).unwrap();
+    assert!(gif.starts_with(b"GIF89a"));
+    // Five frames of 10/100 s each, told in a graphic control extension before each.
+    let frames = gif.windows(4).filter(|bytes| bytes[..3] == [0x21, 0xf9, 0x04]).count();
+    assert_eq!(frames, 5);
+    assert_eq!(
+        gif.windows(6).filter(|bytes| bytes[..3] == [0x21, 0xf9, 0x04] && bytes[4..] == [10, 0]).count(),
+        5
+    );
+    told(&["-o", "turn.png", "--turn-frames", "3", "--size", "40x40"]);
+    let png = std::fs::read(here.join("turn.png")).unwrap();
+    assert_eq!(png.windows(4).filter(|bytes| bytes == b"fcTL").count(), 3);
 }

@@ -117,6 +117,7 @@ fn view() -> View {
         height: HEIGHT,
         near: 0.5,
         far: 8.0,
+        shift: Vec2::ZERO,
     }
 }
 

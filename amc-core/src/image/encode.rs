@@ -7,6 +7,7 @@ use exr::image::write::WritableImage as _;
 use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer};
 use exr::meta::attribute::{AttributeValue, Text};
 use exr::meta::header::LayerAttributes;
+use rayon::prelude::*;
 
 use super::Picture;
 use crate::color::srgb8_from_linear;
@@ -26,12 +27,16 @@ pub fn write_png(picture: &Picture, path: &Path, text: &[(&str, &str)]) -> Resul
 /// # Errors
 /// The picture has no pixels, or a keyword is not 1 to 79 characters of Latin-1.
 pub fn png(picture: &Picture, text: &[(&str, &str)]) -> Result<Vec<u8>> {
+    png_of_pixels(picture.width(), picture.height(), &srgb8(picture), text)
+}
+
+/// The pixels as 8-bit sRGB with straight alpha, light cut at 1.
+pub(crate) fn srgb8(picture: &Picture) -> Vec<[u8; 4]> {
     let encode = |&[r, g, b, a]: &[f32; 4]| {
         let alpha = (a.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
         [srgb8_from_linear(r), srgb8_from_linear(g), srgb8_from_linear(b), alpha]
     };
-    let pixels: Vec<[u8; 4]> = picture.pixels().iter().map(encode).collect();
-    png_of_pixels(picture.width(), picture.height(), &pixels, text)
+    picture.pixels().par_iter().map(encode).collect()
 }
 
 /// 8-bit sRGB pixels with straight alpha, rows from the top, as PNG.

@@ -3,6 +3,7 @@
 pub mod compare;
 pub mod decode;
 pub mod encode;
+pub mod stream;
 
 use crate::{Error, Result};
 

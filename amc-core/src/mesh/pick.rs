@@ -129,7 +129,16 @@ mod tests {
     /// A pixel is 1/100 m; the picture's middle is the origin.
     fn view() -> View {
         let projection = Projection::Orthographic { half_height: 1.0 };
-        View { object_to_view: Mat4::IDENTITY, projection, width: 400, height: 200, near: -2.0, far: 2.0 }
+        let shift = Vec2::ZERO;
+        View {
+            object_to_view: Mat4::IDENTITY,
+            projection,
+            width: 400,
+            height: 200,
+            near: -2.0,
+            far: 2.0,
+            shift,
+        }
     }
 
     #[test]

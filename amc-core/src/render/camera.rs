@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use glam::{DMat3, DMat4, DVec3, Mat4, Vec3};
+use glam::{DMat3, DMat4, DVec3, Mat4, Vec2, Vec3};
 use serde::Deserialize;
 
 use super::view::check_size;
@@ -218,6 +218,7 @@ impl View {
             height,
             near: (radius * -1.01) as f32,
             far: (radius * 1.01) as f32,
+            shift: Vec2::ZERO,
         }
     }
 
@@ -241,7 +242,8 @@ impl View {
         let seen = Extent::of(positions.iter().map(|p| object_to_view.transform_point3(p.as_dvec3())));
         let (near, far) = depths(camera.projection, -seen.high.z, -seen.low.z);
         let object_to_view: Mat4 = object_to_view.as_mat4();
-        let view = Self { object_to_view, projection: camera.projection, width, height, near, far };
+        let projection = camera.projection;
+        let view = Self { object_to_view, projection, width, height, near, far, shift: Vec2::ZERO };
         view.check()?;
         Ok(view)
     }

@@ -13,7 +13,7 @@ pub mod shade;
 mod view;
 
 pub use camera::{Bounds, Camera, Orientation};
-pub use view::{Projection, Ray, View};
+pub use view::{Part, Projection, Ray, View};
 
 use std::ops::Range;
 use std::sync::Arc;

@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
+use amc_core::image::encode;
 use amc_core::mesh::Unit;
 use amc_core::render::{Orientation, Shading, View};
 
 use super::Outcome;
 use super::output::Output;
 use super::progress::with_progress;
-use super::render::PictureFormat;
 use super::renderer::draw_anyhow;
 use crate::scene::{Fabrics, drawing, load_garment, panel_looks};
 
@@ -28,7 +28,7 @@ pub(super) fn run(why: &str, output: &Output) -> Outcome {
     let view = View::fitted(&garment.positions, orientation, SIDE, SIDE)?;
     let (picture, renderer, without_device) = with_progress(|progress| {
         let mut fabrics = Fabrics::default();
-        let looks = panel_looks(&garment, None, &[], Some(&mut fabrics), progress)?;
+        let looks = panel_looks(&garment, (None, None), &[], Some(&mut fabrics), progress)?;
         let drawing = drawing(&garment, &looks, fabrics, true, progress)?;
         draw_anyhow(&drawing, &view, &Shading::default(), progress)
     })?;
@@ -36,7 +36,7 @@ pub(super) fn run(why: &str, output: &Output) -> Outcome {
         output.notice(&format!("drawn by the processor: {error}"));
     }
     let file = Path::new(PICTURE);
-    PictureFormat::Png.save(&picture, file)?;
+    encode::write_png(&picture, file, &[])?;
     let file = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
     let result = serde_json::json!({ "picture": file, "renderer": renderer });
     output.result(&result, || {

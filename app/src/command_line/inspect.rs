@@ -1,22 +1,23 @@
-//! `amc-studio inspect`: what a mesh, an AMC or a capture session holds.
+//! `amc-studio inspect`: what a project, a mesh, an AMC or a capture session holds.
 
 use std::path::{Path, PathBuf};
 
 use amc_core::amc::Amc;
 use amc_core::capture::{SESSION_FILE, Session};
 use amc_core::mesh::{Distortion, Garment, Panel, Unit};
-use amc_core::{Error, Result};
+use amc_core::{Error, Progress, Result};
 use serde_json::{Value, json};
+use studio_plugin::document::{Asset, FabricInUse, PanelChoice};
 
 use super::Outcome;
 use super::output::Output;
-use super::render::refuse_projects;
 use super::values::unit;
+use crate::project::{self, Opened, SUFFIX, System};
 use crate::scene::load_garment;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
-    /// A mesh, garment:NAME, shape:NAME, an AMC, or a session's folder.
+    /// A project, a mesh, garment:NAME, shape:NAME, an AMC, or a session's folder.
     file: PathBuf,
     /// What a mesh's numbers mean: m, dm, cm or mm.
     #[arg(long, default_value = "m", value_parser = unit)]
@@ -24,7 +25,6 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
-    refuse_projects(&arguments.file)?;
     let found = inspect(&arguments.file, arguments.unit)?;
     output.result(&found, || as_text(&found, 0))?;
     Ok(())
@@ -36,6 +36,7 @@ fn inspect(file: &Path, unit: Unit) -> Result<Value> {
     }
     match file.extension().and_then(|suffix| suffix.to_str()).map(str::to_ascii_lowercase).as_deref() {
         Some("ktx2") => amc(file),
+        Some(SUFFIX) => project(file),
         _ => Ok(mesh(&load_garment(file, unit)?)),
     }
 }
@@ -80,6 +81,51 @@ fn describe(garment: &Garment, panel: &Panel, Distortion { stretch, shear }: Dis
         described["seams"] = seams.collect();
     }
     described
+}
+
+/// What is written in it, with files as they were found. The garment is not read.
+fn project(file: &Path) -> Result<Value> {
+    let Opened { project, missing, notices, .. } = project::open(&System, file, &Progress::none())?;
+    let asset = |asset: &Asset| match asset {
+        Asset::Bundled(name) => json!({ "bundled": name }),
+        Asset::File { path, .. } => json!({
+            "file": path,
+            "missing": missing.iter().any(|missing| missing.asset == *asset),
+        }),
+    };
+    let fabric = |fabric: &FabricInUse| {
+        let mut described = json!({ "id": fabric.id, "name": fabric.name });
+        merge(&mut described, asset(&fabric.asset));
+        described
+    };
+    let panel = |(id, choice): (&String, &PanelChoice)| {
+        let mut described = json!({ "id": id, "visible": choice.visible });
+        // What nobody has chosen is not there; a chosen null is plain grey.
+        if let Some(fabric) = choice.fabric {
+            described["fabric"] = json!(fabric);
+        }
+        if let Some(direction) = choice.direction {
+            described["angle_deg"] = json!(direction.angle.to_degrees());
+            described["source"] = json!(direction.source);
+        }
+        described
+    };
+    Ok(json!({
+        "kind": "project",
+        "garment": asset(&project.garment),
+        "fabrics": project.fabrics.iter().map(fabric).collect::<Vec<_>>(),
+        "panels": project.panels.iter().map(panel).collect::<Vec<_>>(),
+        "view": project.view,
+        "notes": project.notes,
+        "notices": notices,
+    }))
+}
+
+/// Adds the members of one object to another.
+fn merge(into: &mut Value, more: Value) {
+    if let (Value::Object(into), Value::Object(more)) = (into, more) {
+        into.extend(more);
+    }
 }
 
 fn amc(file: &Path) -> Result<Value> {

@@ -67,7 +67,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Render a mesh or a shape in its fabrics to a picture.
+    /// Render a project, a mesh or a shape in its fabrics: a picture, a contact sheet, a turn.
     Render(Box<render::Arguments>),
     /// Make an AMC from pictures of a turning ball.
     Build(build::Arguments),
@@ -75,7 +75,7 @@ enum Command {
     Bake(bake::Arguments),
     /// Export the panels' directions.
     Tangents(tangents::Arguments),
-    /// Say what a mesh, an AMC or a capture session holds.
+    /// Say what a project, a mesh, an AMC or a capture session holds.
     Inspect(inspect::Arguments),
     /// Convert an AMC to or from slice atlas, slice folder or ordinary MatCap.
     Convert(convert::Arguments),

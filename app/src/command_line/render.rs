@@ -1,68 +1,84 @@
-//! `amc-studio render`: a picture of a garment in its fabrics.
+//! `amc-studio render`: pictures of a garment in its fabrics.
+
+mod choices;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use amc_core::Error;
-use amc_core::image::{Picture, decode, encode};
-use amc_core::mesh::Unit;
-use amc_core::render::{Camera, Cyclic, Mode, Orientation, Perspective, Shading, View};
-use clap::ValueEnum;
+use amc_core::image::decode;
+use amc_core::image::stream::Timing;
+use amc_core::mesh::{Garment, Unit};
+use amc_core::render::{Bounds, Camera, Mode, Orientation, Shading};
+use amc_core::{Progress, Result};
+use studio_plugin::ShadingChoice;
+use studio_plugin::document::{Angles, ViewSettings};
 
+use self::choices::{CyclicChoice, PerspectiveChoice, Switch, ViewChoice};
 use super::output::Output;
 use super::progress::with_progress;
-use super::renderer::{RendererChoice, draw};
+use super::renderer::RendererChoice;
 use super::values::{Background, PictureSize, finite, unit};
 use super::{Failure, Outcome};
-use crate::scene::{Fabrics, PanelOption, drawing, load_garment, panel_looks};
+use crate::pictures::{Device, Kind, Order, Painter, Size, Stand};
+use crate::scene::{Fabrics, PanelOption, Scene, drawing, hidden_panels, open_scene, panel_looks};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
-    /// A mesh (.obj, .glb, .gltf), garment:NAME or shape:NAME.
+    /// A project (.amcproj), a mesh (.obj, .glb, .gltf), garment:NAME or shape:NAME.
     scene: PathBuf,
-    /// The picture: .png (sRGB, straight alpha) or .exr (linear, premultiplied).
+    /// The picture: .png (sRGB, straight alpha) or .exr (linear, premultiplied); a turn: .gif or .png (animated).
     #[arg(short, long)]
     output: PathBuf,
-    /// The fabric of every panel: a file, or fabric:NAME for a bundled one [default: fabric:satin].
+    /// The fabric of every panel: a file, or fabric:NAME for a bundled one [default: the project's own,
+    /// else fabric:satin].
     #[arg(long)]
     amc: Option<PathBuf>,
     /// ID|all[,amc=FILE|fabric:NAME][,angle=DEGREES][,source=NAME]; repeatable, later ones win. The angle counts from +u
-    /// of the flat pattern [default: the panel's grain, else 0]. Sources: gradient, yarn, around-x|y|z, along-x|y|z, radial.
+    /// of the flat pattern [default: the project's, else the panel's grain, else 0]. Sources: gradient, yarn, around-x|y|z, along-x|y|z, radial.
     #[arg(long)]
     panel: Vec<PanelOption>,
-    /// amc, isotropic, matcap=PNG, normals, tangents, uv.
-    #[arg(long, default_value = "amc")]
-    shading: String,
-    /// The picture's size in pixels.
+    /// amc, isotropic, matcap=PNG, normals, tangents, uv [default: the project's, else amc].
+    #[arg(long)]
+    shading: Option<String>,
+    /// The size in pixels of the picture, of each view or of each frame.
     #[arg(long, default_value = "1024x1024")]
     size: PictureSize,
     /// Samples per pixel.
     #[arg(long, default_value = "4", value_parser = ["1", "4"])]
     samples: String,
-    /// Turn about the vertical axis, degrees.
-    #[arg(long, default_value_t = 0.0, value_parser = finite, allow_negative_numbers = true)]
-    yaw: f32,
-    /// Turn about the horizontal axis, degrees.
-    #[arg(long, default_value_t = 0.0, value_parser = finite, allow_negative_numbers = true)]
-    pitch: f32,
-    /// Turn about the line of sight, degrees.
-    #[arg(long, default_value_t = 0.0, value_parser = finite, allow_negative_numbers = true)]
-    roll: f32,
+    /// Turn about the vertical axis, degrees [default: the project's, else 0].
+    #[arg(long, value_parser = finite, allow_negative_numbers = true)]
+    yaw: Option<f32>,
+    /// Turn about the horizontal axis, degrees [default: the project's, else 0].
+    #[arg(long, value_parser = finite, allow_negative_numbers = true)]
+    pitch: Option<f32>,
+    /// Turn about the line of sight, degrees [default: the project's, else 0].
+    #[arg(long, value_parser = finite, allow_negative_numbers = true)]
+    roll: Option<f32>,
     /// An exact camera, in place of the fitted one.
     #[arg(long)]
     camera: Option<PathBuf>,
-    /// How the azimuth gets from vertices to fragments.
-    #[arg(long, value_enum, default_value = "cyclic")]
-    cyclic: CyclicChoice,
-    /// How normals and tangents are turned for perspective.
-    #[arg(long, value_enum, default_value = "half")]
-    perspective: PerspectiveChoice,
-    /// Whether ambient occlusion darkens the folds.
-    #[arg(long, value_enum, default_value = "on")]
-    occlusion: Switch,
-    /// RRGGBB, or none: transparent.
-    #[arg(long, default_value = "none")]
-    background: Background,
+    /// How the azimuth gets from vertices to fragments [default: the project's, else cyclic].
+    #[arg(long, value_enum)]
+    cyclic: Option<CyclicChoice>,
+    /// How normals and tangents are turned for perspective [default: the project's, else half].
+    #[arg(long, value_enum)]
+    perspective: Option<PerspectiveChoice>,
+    /// Whether ambient occlusion darkens the folds [default: the project's, else on].
+    #[arg(long, value_enum)]
+    occlusion: Option<Switch>,
+    /// RRGGBB, or none: transparent [default: the project's, else none].
+    #[arg(long)]
+    background: Option<Background>,
+    /// A contact sheet of these views, fitted, in equal cells: front, right, back, left, top, bottom.
+    #[arg(long, value_enum, value_delimiter = ',', conflicts_with_all = ["turn_frames", "yaw", "pitch", "roll"])]
+    views: Vec<ViewChoice>,
+    /// One whole turn about the garment's vertical axis in so many frames, beginning with the view.
+    #[arg(long, value_name = "FRAMES")]
+    turn_frames: Option<u32>,
+    /// Frames of a turn shown in a second, 1 to 50.
+    #[arg(long, default_value_t = 24, requires = "turn_frames")]
+    fps: u16,
     /// gpu, or cpu: the reference.
     #[arg(long, value_enum, default_value_t)]
     renderer: RendererChoice,
@@ -71,33 +87,18 @@ pub(super) struct Arguments {
     unit: Unit,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum CyclicChoice {
-    Naive,
-    Cyclic,
-    Fragment,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum PerspectiveChoice {
-    Off,
-    Paper,
-    Full,
-    Half,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Switch {
-    On,
-    Off,
-}
-
 /// What is said about a picture that was made.
 #[derive(Debug, serde::Serialize)]
 struct Rendered<'a> {
     picture: &'a Path,
     width: u32,
     height: u32,
+    /// How many are on the sheet.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    views: Option<usize>,
+    /// How many are in the turn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    frames: Option<u32>,
     renderer: String,
     triangles: usize,
     panels: usize,
@@ -105,50 +106,66 @@ struct Rendered<'a> {
 }
 
 pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
-    refuse_projects(&arguments.scene)?;
-    let format = PictureFormat::of(&arguments.output)?;
-    let shading = shading(arguments)?;
-    let garment = load_garment(&arguments.scene, arguments.unit)?;
-    for notice in &garment.notices {
-        output.notice(notice);
-    }
-    let orientation = Orientation {
-        yaw: arguments.yaw.to_radians(),
-        pitch: arguments.pitch.to_radians(),
-        roll: arguments.roll.to_radians(),
-    };
-    let PictureSize { width, height } = arguments.size;
-    let view = match &arguments.camera {
-        Some(file) => {
-            View::with_camera(&Camera::read(file)?, orientation, &garment.positions, width, height)?
+    let kind = arguments.kind();
+    Order::check_file(&kind, &arguments.output).map_err(|error| Failure::Usage(error.to_string()))?;
+    let mode = mode(arguments)?;
+    let (scene, device) = with_progress(|progress| {
+        let scene = open_scene(&arguments.scene, arguments.unit, progress)?;
+        for notice in &scene.notices {
+            output.notice(notice);
         }
-        None => View::fitted(&garment.positions, orientation, width, height)?,
-    };
-    let (picture, renderer) = with_progress(|progress| {
-        let mut fabrics = Fabrics::default();
-        let looks =
-            panel_looks(&garment, arguments.amc.as_deref(), &arguments.panel, Some(&mut fabrics), progress)?;
-        let drawing = drawing(&garment, &looks, fabrics, shading.occlusion, progress)?;
-        draw(arguments.renderer, &drawing, &view, &shading, progress)
+        let settings = arguments.settings(scene.project.as_ref().map(|project| &project.view));
+        let order = Order {
+            kind: kind.clone(),
+            stand: arguments.stand(&scene.garment, &settings)?,
+            size: Size { width: arguments.size.width, height: arguments.size.height },
+            shading: arguments.shading(&settings, mode),
+            file: arguments.output.clone(),
+        };
+        let device = arguments.renderer.device()?;
+        order.carry_out(&mut painter(arguments, &scene, &device, &order.shading, progress)?, progress)?;
+        Ok((scene, device))
     })?;
-    format.save(&picture, &arguments.output)?;
+    let PictureSize { width, height } = arguments.size;
     let rendered = Rendered {
         picture: &arguments.output,
         width,
         height,
-        renderer,
-        triangles: garment.triangles.len(),
-        panels: garment.panels.len(),
-        notices: &garment.notices,
+        views: (!arguments.views.is_empty()).then_some(arguments.views.len()),
+        frames: arguments.turn_frames,
+        renderer: device.name(),
+        triangles: scene.garment.triangles.len(),
+        panels: scene.garment.panels.len(),
+        notices: &scene.notices,
     };
     output.result(&rendered, || {
-        format!("{} ({width} x {height}, {})", rendered.picture.display(), rendered.renderer)
+        let views = rendered.views.map_or_else(String::new, |views| format!("{views} views of "));
+        let frames = rendered.frames.map_or_else(String::new, |frames| format!("{frames} frames of "));
+        format!("{} ({views}{frames}{width} x {height}, {})", rendered.picture.display(), rendered.renderer)
     })?;
     Ok(())
 }
 
-fn shading(arguments: &Arguments) -> Result<Shading, Failure> {
-    let mode = match arguments.shading.as_str() {
+/// The garment in its looks, ready to be drawn.
+fn painter(
+    arguments: &Arguments,
+    Scene { garment, project, .. }: &Scene,
+    device: &Device,
+    shading: &Shading,
+    progress: &Progress<'_>,
+) -> Result<Painter> {
+    let mut fabrics = Fabrics::default();
+    let starting = (project.as_ref(), arguments.amc.as_deref());
+    let looks = panel_looks(garment, starting, &arguments.panel, Some(&mut fabrics), progress)?;
+    let drawing = drawing(garment, &looks, fabrics, shading.occlusion, progress)?;
+    let hidden = project.as_ref().map(|project| hidden_panels(project, garment)).unwrap_or_default();
+    Painter::new(device.clone(), drawing, &hidden)
+}
+
+/// The mode that is asked for; none: the project's.
+fn mode(arguments: &Arguments) -> Result<Option<Mode>, Failure> {
+    let Some(named) = &arguments.shading else { return Ok(None) };
+    Ok(Some(match named.as_str() {
         "amc" => Mode::Amc,
         "isotropic" => Mode::Isotropic,
         "normals" => Mode::Normals,
@@ -163,57 +180,62 @@ fn shading(arguments: &Arguments) -> Result<Shading, Failure> {
                 )));
             }
         },
-    };
-    Ok(Shading {
-        mode,
-        cyclic: match arguments.cyclic {
-            CyclicChoice::Naive => Cyclic::Naive,
-            CyclicChoice::Cyclic => Cyclic::Cyclic,
-            CyclicChoice::Fragment => Cyclic::Fragment,
-        },
-        perspective: match arguments.perspective {
-            PerspectiveChoice::Off => Perspective::Off,
-            PerspectiveChoice::Paper => Perspective::Paper,
-            PerspectiveChoice::Full => Perspective::Full,
-            PerspectiveChoice::Half => Perspective::Half,
-        },
-        occlusion: arguments.occlusion == Switch::On,
-        samples: if arguments.samples == "1" { 1 } else { 4 },
-        background: arguments.background.0,
-    })
+    }))
 }
 
-/// Projects come with the studio's window.
-pub(super) fn refuse_projects(file: &Path) -> Outcome {
-    if file.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("amcproj")) {
-        return Err(Failure::NotAvailable("reading a project (.amcproj)".to_owned()));
-    }
-    Ok(())
-}
-
-/// How a picture is saved, by its suffix.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum PictureFormat {
-    Png,
-    Exr,
-}
-
-impl PictureFormat {
-    pub(super) fn of(file: &Path) -> Result<Self, Failure> {
-        let suffix = file.extension().and_then(|suffix| suffix.to_str()).map(str::to_ascii_lowercase);
-        match suffix.as_deref() {
-            Some("png") => Ok(Self::Png),
-            Some("exr") => Ok(Self::Exr),
-            _ => {
-                Err(Failure::Usage(format!("a picture is saved as .png or .exr, not as {}", file.display())))
-            }
+impl Arguments {
+    fn kind(&self) -> Kind {
+        match self.turn_frames {
+            Some(frames) => Kind::Turn(Timing { frames, per_second: self.fps }),
+            None if self.views.is_empty() => Kind::Still,
+            None => Kind::Views(self.views.iter().map(|&view| view.into()).collect()),
         }
     }
 
-    pub(super) fn save(self, picture: &Picture, file: &Path) -> Result<(), Error> {
-        match self {
-            Self::Png => encode::write_png(picture, file, &[]),
-            Self::Exr => encode::write_exr(picture, file),
+    /// How it is looked at: as the project says, but for what was asked for.
+    fn settings(&self, project: Option<&ViewSettings>) -> ViewSettings {
+        let mut settings = project.cloned().unwrap_or_default();
+        if self.yaw.or(self.pitch).or(self.roll).is_some() {
+            let Angles { yaw, pitch, roll } = settings.angles();
+            settings.set_angles(Angles {
+                yaw: self.yaw.map_or(yaw, f64::from),
+                pitch: self.pitch.map_or(pitch, f64::from),
+                roll: self.roll.map_or(roll, f64::from),
+            });
+        }
+        if let Some(cyclic) = self.cyclic {
+            settings.cyclic = cyclic.into();
+        }
+        if let Some(perspective) = self.perspective {
+            settings.perspective = perspective.into();
+        }
+        if let Some(occlusion) = self.occlusion {
+            settings.occlusion = occlusion == Switch::On;
+        }
+        settings
+    }
+
+    fn stand(&self, garment: &Garment, settings: &ViewSettings) -> Result<Stand> {
+        let Some(file) = &self.camera else {
+            let bounds = Bounds::of(&garment.positions)?;
+            return Ok(Stand::Settings { settings: Box::new(settings.clone()), bounds });
+        };
+        let radians = |degrees: Option<f32>| degrees.unwrap_or(0.0).to_radians();
+        let orientation =
+            Orientation { yaw: radians(self.yaw), pitch: radians(self.pitch), roll: radians(self.roll) };
+        let positions = Arc::new(garment.positions.clone());
+        Ok(Stand::Camera { camera: Camera::read(file)?, orientation, positions })
+    }
+
+    fn shading(&self, settings: &ViewSettings, mode: Option<Mode>) -> Shading {
+        let shading = settings.shading();
+        // A mode of a plugin's own is cloth here.
+        let own = ShadingChoice::BUILT_IN.into_iter().find(|choice| choice.id == settings.mode);
+        Shading {
+            mode: mode.or(own.map(|choice| choice.mode)).unwrap_or(shading.mode),
+            samples: if self.samples == "1" { 1 } else { 4 },
+            background: self.background.map_or(shading.background, |background| background.0),
+            ..shading
         }
     }
 }

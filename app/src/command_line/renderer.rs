@@ -5,6 +5,8 @@ use amc_core::render::{Drawing, Shading, View, cpu};
 use amc_core::{Error, Progress, Result};
 use clap::ValueEnum;
 
+use crate::pictures::Device;
+
 /// A renderer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum RendererChoice {
@@ -18,21 +20,18 @@ impl Default for RendererChoice {
     }
 }
 
-/// The picture, and what drew it.
-///
-/// # Errors
-/// There is no such renderer here, or the view or the drawing is impossible.
-pub(super) fn draw(
-    choice: RendererChoice,
-    drawing: &Drawing,
-    view: &View,
-    shading: &Shading,
-    progress: &Progress<'_>,
-) -> Result<(Picture, String)> {
-    match choice {
-        RendererChoice::Cpu => Ok((cpu::render(drawing, view, shading, progress)?, "cpu".to_owned())),
-        RendererChoice::Gpu => on_device(drawing, view, shading)
-            .map_err(|error| Error::device(format!("{error}; or render with --renderer cpu")).because(error)),
+impl RendererChoice {
+    /// What it draws with.
+    ///
+    /// # Errors
+    /// There is no such renderer here.
+    pub(super) fn device(self) -> Result<Device> {
+        match self {
+            Self::Cpu => Ok(Device::Cpu),
+            Self::Gpu => Device::headless().map_err(|error| {
+                Error::device(format!("{error}; or render with --renderer cpu")).because(error)
+            }),
+        }
     }
 }
 
@@ -48,10 +47,7 @@ pub(super) fn draw_anyhow(
 ) -> Result<(Picture, String, Option<Error>)> {
     match on_device(drawing, view, shading) {
         Ok((picture, name)) => Ok((picture, name, None)),
-        Err(why) => {
-            let (picture, name) = draw(RendererChoice::Cpu, drawing, view, shading, progress)?;
-            Ok((picture, name, Some(why)))
-        }
+        Err(why) => Ok((cpu::render(drawing, view, shading, progress)?, Device::Cpu.name(), Some(why))),
     }
 }
 

@@ -7,9 +7,8 @@ use amc_core::{Progress, direction, export};
 
 use super::Outcome;
 use super::output::Output;
-use super::render::refuse_projects;
 use super::values::unit;
-use crate::scene::{PanelOption, directions, load_garment, panel_looks};
+use crate::scene::{PanelOption, Scene, directions, open_scene, panel_looks};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
@@ -36,12 +35,11 @@ struct Exported<'a> {
 }
 
 pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
-    refuse_projects(&arguments.mesh)?;
-    let garment = load_garment(&arguments.mesh, arguments.unit)?;
-    for notice in &garment.notices {
+    let Scene { garment, project, notices } = open_scene(&arguments.mesh, arguments.unit, &Progress::none())?;
+    for notice in &notices {
         output.notice(notice);
     }
-    let looks = panel_looks(&garment, None, &arguments.panel, None, &Progress::none())?;
+    let looks = panel_looks(&garment, (project.as_ref(), None), &arguments.panel, None, &Progress::none())?;
     let directions = directions(&looks);
     let tangents = direction::tangents(&garment, &directions)?;
     export::tangents(&garment, &tangents, &directions, &arguments.output)?;
@@ -49,7 +47,7 @@ pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
         file: &arguments.output,
         panels: garment.panels.len(),
         vertices: garment.positions.len(),
-        notices: &garment.notices,
+        notices: &notices,
     };
     output.result(&exported, || {
         format!("{}: {} panels, {} vertices", exported.file.display(), exported.panels, exported.vertices)

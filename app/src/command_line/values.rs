@@ -2,7 +2,9 @@
 
 use std::str::FromStr;
 
-/// `WxH` in pixels, each 1 to 16384.
+use crate::pictures::SIDE_LIMIT;
+
+/// `WxH` in pixels, each 1 to [`SIDE_LIMIT`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct PictureSize {
     pub(super) width: u32,
@@ -17,8 +19,8 @@ impl FromStr for PictureSize {
             .split_once(['x', 'X'])
             .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
         match parsed {
-            Some((width @ 1..=16384, height @ 1..=16384)) => Ok(Self { width, height }),
-            _ => Err("expected WIDTHxHEIGHT, each 1 to 16384, such as 1024x768".to_owned()),
+            Some((width @ 1..=SIDE_LIMIT, height @ 1..=SIDE_LIMIT)) => Ok(Self { width, height }),
+            _ => Err(format!("expected WIDTHxHEIGHT, each 1 to {SIDE_LIMIT}, such as 1024x768")),
         }
     }
 }

@@ -6,9 +6,18 @@ use amc_core::direction::{Direction, Field, Source};
 use amc_core::mesh::{Garment, Panel};
 use amc_core::{Error, Progress, Result};
 use glam::Vec3;
+use studio_plugin::document::Project;
 
-use super::Fabrics;
 use super::panel_option::{PanelOption, SourceName};
+use super::{Fabrics, starting_looks};
+
+/// What a panel looks like before anything is said of it on the command line.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct StartingLook {
+    pub(crate) fabric: Option<usize>,
+    /// None: along its grain.
+    pub(crate) direction: Option<Direction>,
+}
 
 /// One panel's fabric (none: plain grey) and direction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -22,22 +31,33 @@ pub(crate) fn directions(looks: &[PanelLook]) -> Vec<Direction> {
     looks.iter().map(|look| look.direction).collect()
 }
 
-/// Every panel's look: `amc` (a file or `fabric:NAME`; default: the bundled satin) on all that take a fabric, along its
-/// grain where its file says it, then `options` in their order, later ones winning. `fabrics` none: only directions are
-/// wanted.
+/// Every panel's look: as `project` has it; without one in `amc` (a file or `fabric:NAME`; default: the bundled satin) on all
+/// that take a fabric, along its grain where its file says it. `amc` takes the place of a project's fabrics. Then `options`
+/// in their order, later ones winning. `fabrics` none: only directions are wanted.
 pub(crate) fn panel_looks(
     garment: &Garment,
-    amc: Option<&Path>,
+    (project, amc): (Option<&Project>, Option<&Path>),
     options: &[PanelOption],
     mut fabrics: Option<&mut Fabrics>,
     progress: &Progress<'_>,
 ) -> Result<Vec<PanelLook>> {
     check_ids(garment, options)?;
-    let mut looks = vec![PanelLook::default(); garment.panels.len()];
-    if let Some(fabrics) = fabrics.as_deref_mut() {
+    let starting = match project {
+        Some(project) => {
+            let fabrics = fabrics.as_deref_mut().filter(|_| amc.is_none());
+            starting_looks(project, garment, fabrics, progress)?
+        }
+        None => vec![StartingLook::default(); garment.panels.len()],
+    };
+    let mut looks: Vec<PanelLook> = starting
+        .iter()
+        .map(|look| PanelLook { fabric: look.fabric, direction: look.direction.unwrap_or_default() })
+        .collect();
+    if let Some(fabrics) = fabrics.as_deref_mut().filter(|_| project.is_none() || amc.is_some()) {
         give_all_cloth(&mut looks, garment, amc, options, fabrics, progress)?;
     }
-    let mut angles = vec![None; garment.panels.len()];
+    let mut angles: Vec<Option<f32>> =
+        starting.iter().map(|look| look.direction.map(|direction| direction.angle)).collect();
     let centre = centre(garment);
     for option in options {
         let fabric = match (&option.amc, fabrics.as_deref_mut()) {
@@ -50,7 +70,7 @@ pub(crate) fn panel_looks(
                 continue;
             }
             look.fabric = fabric.or(look.fabric);
-            *angle = option.angle_degrees.or(*angle);
+            *angle = option.angle_degrees.map(f32::to_radians).or(*angle);
             if let Some(source) = option.source {
                 look.direction.source = source_of(source, centre);
             }
@@ -58,7 +78,7 @@ pub(crate) fn panel_looks(
     }
     for ((look, angle), panel) in looks.iter_mut().zip(angles).zip(&garment.panels) {
         look.direction.angle = match (angle, look.direction.source) {
-            (Some(degrees), _) => degrees.to_radians(),
+            (Some(angle), _) => angle,
             (None, Source::Gradient | Source::Yarn) => Direction::along_grain(panel).angle,
             // A grain is an angle in the flat pattern, of which a field knows nothing.
             (None, Source::Field(_)) => 0.0,

@@ -222,9 +222,7 @@ impl App {
                     .any(|suffix| name.ends_with(&format!(".{suffix}")))
         };
         let Some(index) = self.registry.plugins().iter().position(takes) else {
-            self.notices.failed(format!(
-                "nothing here opens '{name}': projects end in .amcproj, garments in .glb, .gltf or .obj, fabrics in .amc.ktx2"
-            ));
+            self.notices.failed(texts::files::nothing_opens(&name));
             return;
         };
         self.with_context(|registry, studio| {
@@ -259,6 +257,7 @@ impl App {
             Request::GoTo(position) => self.desk.document.go_to(position),
             Request::View(view) => self.desk.document.set_view(view),
             Request::Copy(text) => self.context.copy_text(text),
+            Request::AskWhere(plugin, ask) => self.ask(Purpose::Where(plugin, ask)),
         }
     }
 

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use eframe::egui::{Key, KeyboardShortcut, Modifiers};
 use studio_plugin::{Command, Registry};
 
-use super::texts;
+use super::texts::{self, commands as words};
 
 const fn key(key: Key) -> Option<KeyboardShortcut> {
     Some(KeyboardShortcut::new(Modifiers::COMMAND, key))
@@ -58,89 +58,47 @@ const fn own(
 
 /// All of them, in the order of the menus. A command is one line here and one arm where it is run.
 pub(super) const OWN: [Own; 18] = [
-    own(Action::New, texts::FILE_MENU, "new", "New project", "Begins with the bundled shirt", key(Key::N)),
-    own(
-        Action::Open,
-        texts::FILE_MENU,
-        "open",
-        "Open ...",
-        "Opens a project, a garment or a fabric",
-        key(Key::O),
-    ),
-    own(Action::Save, texts::FILE_MENU, "save", "Save", "Saves the project where it is", key(Key::S)),
-    own(
-        Action::SaveAs,
-        texts::FILE_MENU,
-        "save-as",
-        "Save as ...",
-        "Saves the project elsewhere",
-        shift(Key::S),
-    ),
-    own(Action::Quit, texts::FILE_MENU, "quit", "Quit", "Closes the window", key(Key::Q)),
-    own(Action::Undo, texts::EDIT_MENU, "undo", texts::UNDO, "Takes back the last step", key(Key::Z)),
-    own(Action::Redo, texts::EDIT_MENU, "redo", texts::REDO, "Does again what was taken back", shift(Key::Z)),
+    own(Action::New, texts::FILE_MENU, "new", words::NEW, words::NEW_TIP, key(Key::N)),
+    own(Action::Open, texts::FILE_MENU, "open", words::OPEN, words::OPEN_TIP, key(Key::O)),
+    own(Action::Save, texts::FILE_MENU, "save", words::SAVE, words::SAVE_TIP, key(Key::S)),
+    own(Action::SaveAs, texts::FILE_MENU, "save-as", words::SAVE_AS, words::SAVE_AS_TIP, shift(Key::S)),
+    own(Action::Quit, texts::FILE_MENU, "quit", words::QUIT, words::QUIT_TIP, key(Key::Q)),
+    own(Action::Undo, texts::EDIT_MENU, "undo", texts::UNDO, words::UNDO_TIP, key(Key::Z)),
+    own(Action::Redo, texts::EDIT_MENU, "redo", texts::REDO, words::REDO_TIP, shift(Key::Z)),
     own(
         Action::SelectAll,
         texts::SELECT_MENU,
         "select-all",
-        "Select all panels",
-        "All that take a fabric",
+        words::SELECT_ALL,
+        words::SELECT_ALL_TIP,
         key(Key::A),
     ),
     own(
         Action::SelectNone,
         texts::SELECT_MENU,
         "select-none",
-        "Select nothing",
-        "Nothing is selected",
+        words::SELECT_NONE,
+        words::SELECT_NONE_TIP,
         shift(Key::A),
     ),
-    own(
-        Action::Palette,
-        texts::WINDOW_MENU,
-        "palette",
-        "All commands ...",
-        "Finds a command by its name",
-        key(Key::P),
-    ),
-    own(
-        Action::Theme,
-        texts::WINDOW_MENU,
-        "theme",
-        "Light or dark",
-        "Changes the window's theme",
-        shift(Key::L),
-    ),
+    own(Action::Palette, texts::WINDOW_MENU, "palette", words::PALETTE, words::PALETTE_TIP, key(Key::P)),
+    own(Action::Theme, texts::WINDOW_MENU, "theme", words::THEME, words::THEME_TIP, shift(Key::L)),
     own(
         Action::ResetLayout,
         texts::WINDOW_MENU,
         "reset-layout",
-        "Reset layout",
-        "Puts all panes back",
+        words::RESET_LAYOUT,
+        words::RESET_LAYOUT_TIP,
         shift(Key::R),
     ),
-    own(
-        Action::Larger,
-        texts::WINDOW_MENU,
-        "larger",
-        "Larger text",
-        "Makes the whole interface larger",
-        key(Key::Plus),
-    ),
-    own(
-        Action::Smaller,
-        texts::WINDOW_MENU,
-        "smaller",
-        "Smaller text",
-        "Makes the whole interface smaller",
-        key(Key::Minus),
-    ),
+    own(Action::Larger, texts::WINDOW_MENU, "larger", words::LARGER, words::LARGER_TIP, key(Key::Plus)),
+    own(Action::Smaller, texts::WINDOW_MENU, "smaller", words::SMALLER, words::SMALLER_TIP, key(Key::Minus)),
     own(
         Action::Settings,
         texts::WINDOW_MENU,
         "settings",
         texts::SETTINGS,
-        "Theme, text size, shortcuts, layouts",
+        words::SETTINGS_TIP,
         key(Key::Comma),
     ),
     own(
@@ -148,7 +106,7 @@ pub(super) const OWN: [Own; 18] = [
         texts::HELP_MENU,
         "guide",
         texts::GUIDE,
-        "How everything is done",
+        words::GUIDE_TIP,
         Some(KeyboardShortcut::new(Modifiers::NONE, Key::F1)),
     ),
     own(
@@ -156,7 +114,7 @@ pub(super) const OWN: [Own; 18] = [
         texts::HELP_MENU,
         "first-steps",
         texts::FIRST_STEPS,
-        "Three things to try",
+        words::FIRST_STEPS_TIP,
         Some(KeyboardShortcut::new(Modifiers::SHIFT, Key::F1)),
     ),
     own(
@@ -164,7 +122,7 @@ pub(super) const OWN: [Own; 18] = [
         texts::HELP_MENU,
         "about",
         texts::ABOUT,
-        "The version, and the licences of all that it is made of",
+        words::ABOUT_TIP,
         Some(KeyboardShortcut::new(Modifiers::COMMAND, Key::F1)),
     ),
 ];
@@ -234,12 +192,7 @@ pub(super) fn all(registry: &Registry) -> Vec<Offered> {
         plugin.panes().into_iter().map(move |pane| Offered {
             of: texts::WINDOW_MENU,
             key: format!("pane/{id}/{}", pane.id).into(),
-            command: Command {
-                id: pane.id,
-                name: pane.title,
-                tooltip: "Brings this pane forward",
-                shortcut: None,
-            },
+            command: Command { id: pane.id, name: pane.title, tooltip: words::PANE_TIP, shortcut: None },
             wanted: Wanted::Pane { plugin: id, pane: pane.id },
         })
     });

@@ -7,6 +7,7 @@ use amc_core::Result;
 use studio_plugin::document::{Document, Project, Snapshot};
 use studio_plugin::{Job, Jobs, Notices};
 
+use super::texts::notices as words;
 use crate::project::{
     self, Autosave, Claim, Disk, Missing, Opened, ProjectLock, Recoverable, System, Unknown, recent,
 };
@@ -56,7 +57,7 @@ impl Desk {
         };
         match desk.folders.clone() {
             Some(folders) => desk.watch(&folders, notices),
-            None => notices.note("the system names no folder for settings: unsaved work is not kept"),
+            None => notices.note(words::NO_FOLDERS),
         }
         desk
     }
@@ -71,7 +72,7 @@ impl Desk {
         }
         match Autosave::start(&folders.recovery, Arc::clone(&self.disk)) {
             Ok(autosave) => self.autosave = Some(autosave),
-            Err(error) => notices.failed(format!("unsaved work is not kept: {error}")),
+            Err(error) => notices.failed(words::not_kept(error)),
         }
         let recent = recent::list(self.disk.as_ref(), &folders.settings);
         recent.notice.iter().for_each(|notice| notices.note(notice));
@@ -96,7 +97,7 @@ impl Desk {
     /// Starts to open a project.
     pub(super) fn open(&mut self, path: &Path, jobs: &mut Jobs) {
         let (disk, file) = (Arc::clone(&self.disk), path.to_owned());
-        let name = format!("Opening {}", path.display());
+        let name = words::opening(path.display());
         let job = jobs.start(name, move |progress| project::open(disk.as_ref(), &file, progress));
         self.opening = Some((path.to_owned(), job));
     }
@@ -106,7 +107,7 @@ impl Desk {
         let snapshot = self.document.snapshot();
         let (disk, file) = (Arc::clone(&self.disk), path.to_owned());
         let (project, unknown) = (Arc::clone(&snapshot.project), Arc::clone(&self.unknown));
-        let job = jobs.start(format!("Saving {}", path.display()), move |_| {
+        let job = jobs.start(words::saving(path.display()), move |_| {
             project::save(disk.as_ref(), &file, &project, &unknown)
         });
         self.saving = Some((path.to_owned(), snapshot, job));
@@ -117,7 +118,7 @@ impl Desk {
         let work = self.recoverable.remove(index);
         let (disk, read) = (Arc::clone(&self.disk), work.read.clone());
         let folder = work.belongs_to.as_deref().and_then(Path::parent).map(Path::to_owned);
-        let job = jobs.start("Taking the work back", move |progress| {
+        let job = jobs.start(words::TAKING_BACK, move |progress| {
             Opened::recovered(disk.as_ref(), read, folder.as_deref(), progress)
         });
         self.recovering = Some((work, job));
@@ -133,7 +134,7 @@ impl Desk {
         if let Some(autosave) = &self.autosave {
             autosave.adopt(work, file.as_deref());
         }
-        notices.done("the unsaved work is back; save it to keep it");
+        notices.done(words::TAKEN_BACK);
     }
 
     /// Throws away what a dead session left.
@@ -191,7 +192,7 @@ impl Desk {
             match result {
                 Ok(()) => {
                     self.document.mark_snapshot_saved(&snapshot);
-                    notices.done(format!("saved: {}", path.display()));
+                    notices.done(words::saved(path.display()));
                     self.belongs_to(Some(path), notices);
                 }
                 Err(error) => notices.failed(error),
@@ -242,8 +243,8 @@ impl Desk {
             self.lock = None;
             match ProjectLock::claim(&folders.locks, file) {
                 Ok(Claim::Ours(lock)) => self.lock = Some(lock),
-                Ok(Claim::Theirs { process }) => notices.failed(already_open(file, process)),
-                Err(error) => notices.note(format!("another window would not be told: {error}")),
+                Ok(Claim::Theirs { process }) => notices.failed(words::already_open(file.display(), process)),
+                Err(error) => notices.note(words::not_told(error)),
             }
         }
         let remembered: Result<()> = recent::add(self.disk.as_ref(), &folders.settings, file);
@@ -252,12 +253,4 @@ impl Desk {
         }
         self.recent = recent::list(self.disk.as_ref(), &folders.settings).value;
     }
-}
-
-fn already_open(file: &Path, process: Option<u32>) -> String {
-    let who = process.map_or_else(String::new, |process| format!(" (process {process})"));
-    format!(
-        "{} is open in another window{who}: whoever saves last wins; close one, or save this under another name",
-        file.display()
-    )
 }

@@ -4,13 +4,15 @@ use std::path::{Path, PathBuf};
 
 use amc_core::Result;
 use eframe::egui;
-#[cfg(feature = "dialogs")]
-use studio_plugin::Job;
-use studio_plugin::Jobs;
 use studio_plugin::document::{Asset, Edit, Project};
+use studio_plugin::{Ask, Jobs};
+#[cfg(feature = "dialogs")]
+use studio_plugin::{FileKind, Job};
 
 use super::path_field::PathField;
 use super::stager::{Kind, kind};
+use super::texts::files as words;
+use crate::project::SUFFIX;
 
 /// What a dialog is for.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -19,6 +21,8 @@ pub(super) enum Purpose {
     Save,
     /// Finding a file that is missing.
     Find(PathBuf),
+    /// What the plugin of this id has asked.
+    Where(&'static str, Ask),
 }
 
 /// A question for a file, which does not hold the window up.
@@ -67,29 +71,53 @@ impl Dialog {
 
     /// What was chosen, once it is closed; nothing where it was called off. To be called once a frame.
     pub(super) fn poll(&mut self, ui: &egui::Ui) -> Option<Result<Option<PathBuf>>> {
-        match &mut self.form {
+        let answer = match &mut self.form {
             #[cfg(feature = "dialogs")]
             Form::System(job) => job.poll(),
             Form::Field(field) => field.show(ui, &self.purpose).map(Ok),
+        };
+        answer.map(|answer| Ok(answer?.map(|path| with_suffix(path, &self.purpose))))
+    }
+}
+
+/// `path`, ending as what was asked for does.
+pub(super) fn with_suffix(path: PathBuf, purpose: &Purpose) -> PathBuf {
+    let suffixes: Vec<&str> = match purpose {
+        Purpose::Open | Purpose::Find(_) => return path,
+        Purpose::Save => vec![SUFFIX],
+        Purpose::Where(_, ask) => ask.kinds.iter().flat_map(|kind| kind.suffixes).copied().collect(),
+    };
+    let Some(name) = path.file_name().map(|name| name.to_string_lossy().to_lowercase()) else { return path };
+    let has_one = suffixes.iter().any(|suffix| name.ends_with(&format!(".{suffix}")));
+    match suffixes.first() {
+        Some(first) if !has_one && !path.is_dir() => {
+            let mut named = path.into_os_string();
+            named.push(format!(".{first}"));
+            named.into()
         }
+        _ => path,
     }
 }
 
 #[cfg(feature = "dialogs")]
 fn ask_system(purpose: Purpose, name: String, jobs: &mut Jobs) -> Job<Option<PathBuf>> {
-    jobs.start("Choosing a file", move |_| {
+    jobs.start(words::CHOOSING, move |_| {
         let dialog = rfd::FileDialog::new();
         Ok(match purpose {
-            Purpose::Find(missing) => {
-                dialog.set_title(format!("Where is {}?", missing.display())).pick_file()
-            }
+            Purpose::Find(missing) => dialog.set_title(words::where_is(missing.display())).pick_file(),
             Purpose::Open => dialog
-                .add_filter("All that can be opened", &["amcproj", "glb", "gltf", "obj", "ktx2"])
-                .add_filter("Projects", &["amcproj"])
-                .add_filter("Garments", &["glb", "gltf", "obj"])
-                .add_filter("Fabrics", &["ktx2"])
+                .add_filter(words::ALL_KINDS, &["amcproj", "glb", "gltf", "obj", "ktx2"])
+                .add_filter(words::PROJECTS, &["amcproj"])
+                .add_filter(words::GARMENTS, &["glb", "gltf", "obj"])
+                .add_filter(words::FABRICS, &["ktx2"])
                 .pick_file(),
-            Purpose::Save => dialog.add_filter("Projects", &["amcproj"]).set_file_name(name).save_file(),
+            Purpose::Save => dialog.add_filter(words::PROJECTS, &["amcproj"]).set_file_name(name).save_file(),
+            Purpose::Where(_, ask) => {
+                let dialog = dialog.set_title(ask.title).set_file_name(ask.name);
+                let add =
+                    |dialog: rfd::FileDialog, kind: &FileKind| dialog.add_filter(kind.name, kind.suffixes);
+                ask.kinds.iter().fold(dialog, add).save_file()
+            }
         })
     })
 }
@@ -122,4 +150,24 @@ fn asset(file: &Path) -> Asset {
 /// A name for a project that has none yet, after its garment.
 pub(super) fn suggested_name(project: &Project) -> String {
     format!("{}.amcproj", project.garment.name())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use studio_plugin::FileKind;
+
+    #[test]
+    fn a_file_without_a_known_suffix_gets_the_first() {
+        const KINDS: &[FileKind] = &[FileKind { name: "Pictures", suffixes: &["png", "exr"] }];
+        let ask = Ask { id: "", title: String::new(), name: String::new(), kinds: KINDS };
+        let purpose = Purpose::Where("", ask);
+        for (given, kept) in
+            [("a", "a.png"), ("a.EXR", "a.EXR"), ("a.b/c", "a.b/c.png"), ("v1.2", "v1.2.png")]
+        {
+            assert_eq!(with_suffix(given.into(), &purpose), PathBuf::from(kept));
+        }
+        assert_eq!(with_suffix("a".into(), &Purpose::Save), PathBuf::from("a.amcproj"));
+        assert_eq!(with_suffix("a".into(), &Purpose::Open), PathBuf::from("a"));
+    }
 }

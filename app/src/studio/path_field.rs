@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui;
 
-use super::files::Purpose;
+use super::files::{Purpose, with_suffix};
 use super::texts;
 use super::theme::STEP;
 
@@ -36,6 +36,7 @@ impl PathField {
         let start = match (purpose, file) {
             (Purpose::Save, Some(file)) => file.to_owned(),
             (Purpose::Save, None) => current().join(name),
+            (Purpose::Where(_, ask), file) => file.map_or_else(current, folder).join(&ask.name),
             (Purpose::Find(missing), _) => missing.clone(),
             // Joined with nothing, a folder ends in what separates it from a name.
             (Purpose::Open, file) => file.map_or_else(current, folder).join(""),
@@ -81,15 +82,15 @@ impl PathField {
         match (purpose, self.found) {
             (Purpose::Open, _) => texts::OPEN,
             (Purpose::Find(_), _) => texts::USE,
-            (Purpose::Save, Found::File) => texts::REPLACE,
-            (Purpose::Save, _) => texts::SAVE,
+            (Purpose::Save | Purpose::Where(..), Found::File) => texts::REPLACE,
+            (Purpose::Save | Purpose::Where(..), _) => texts::SAVE,
         }
     }
 
     fn can_be_chosen(&self, purpose: &Purpose) -> bool {
         match purpose {
             Purpose::Open | Purpose::Find(_) => self.found == Found::File,
-            Purpose::Save => self.found != Found::Folder && !self.text.trim().is_empty(),
+            Purpose::Save | Purpose::Where(..) => self.found != Found::Folder && !self.text.trim().is_empty(),
         }
     }
 }
@@ -107,22 +108,19 @@ impl Found {
     }
 }
 
-/// The path that is meant: a project gets its suffix.
+/// The path that is meant, with the suffix it needs.
 fn path(text: &str, purpose: &Purpose) -> PathBuf {
-    let path = PathBuf::from(text.trim());
-    let has_suffix = path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("amcproj"));
-    if *purpose == Purpose::Save && !has_suffix && !path.is_dir() && path.file_name().is_some() {
-        let mut named = path.into_os_string();
-        named.push(".amcproj");
-        return named.into();
-    }
-    path
+    with_suffix(PathBuf::from(text.trim()), purpose)
 }
 
-fn words(purpose: &Purpose) -> (&'static str, String) {
+fn words(purpose: &Purpose) -> (&str, String) {
     match purpose {
         Purpose::Open => (texts::OPEN_TITLE, texts::OPEN_TEXT.to_owned()),
         Purpose::Save => (texts::SAVE_TITLE, texts::SAVE_TEXT.to_owned()),
+        Purpose::Where(_, ask) => {
+            let kinds = ask.kinds.iter().flat_map(|kind| kind.suffixes).map(|suffix| format!(".{suffix}"));
+            (&ask.title, texts::files::ends_in(&kinds.collect::<Vec<_>>().join(", ")))
+        }
         Purpose::Find(missing) => (texts::FIND_TITLE, missing.display().to_string()),
     }
 }

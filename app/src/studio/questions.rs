@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui;
 
-use super::texts;
+use super::texts::{self, files as words};
 use super::theme::{STEP, Tokens};
 use crate::project::{Missing, Recoverable};
 
@@ -32,7 +32,7 @@ pub(super) fn recovery(ui: &egui::Ui, works: &[Recoverable]) -> Option<OfRecover
             let name = work.belongs_to.as_deref().map_or(texts::UNNAMED.to_owned(), shown);
             ui.strong(name);
             if work.is_older {
-                ui.weak("The file was saved after it: it probably holds this work already.");
+                ui.weak(words::SAVED_AFTER);
             }
             ui.horizontal(|ui| {
                 if ui.button(texts::RECOVER).clicked() {
@@ -70,15 +70,13 @@ pub(super) fn missing(ui: &egui::Ui, files: &[Missing]) -> Option<OfMissing> {
             ui.add_space(2.0 * STEP);
             let Some(path) = file.asset.path() else { continue };
             ui.horizontal(|ui| {
-                if ui.button(texts::FIND).on_hover_text(format!("Where is {}?", shown(path))).clicked() {
+                if ui.button(texts::FIND).on_hover_text(words::where_is(shown(path))).clicked() {
                     answer = Some(OfMissing::Find(path.to_owned()));
                 }
                 ui.label(shown(path));
             });
             for place in &file.looked_for {
-                ui.label(
-                    egui::RichText::new(format!("not at {}", shown(place))).color(Tokens::of(ui).text_weak),
-                );
+                ui.label(egui::RichText::new(words::not_at(shown(place))).color(Tokens::of(ui).text_weak));
             }
         }
         ui.add_space(2.0 * STEP);

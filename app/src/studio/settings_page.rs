@@ -6,7 +6,7 @@ use super::commands::Offered;
 use super::dock::{self, Layout};
 use super::settings::{Preferences, SCALES, Theme};
 use super::shortcuts::{self, Shortcuts};
-use super::texts;
+use super::texts::{self, settings as words};
 use super::theme::{STEP, Tokens};
 
 /// The page, while it is open.
@@ -31,8 +31,11 @@ enum Tab {
     Layouts,
 }
 
-const TABS: [(Tab, &str); 3] =
-    [(Tab::Appearance, "Appearance"), (Tab::Shortcuts, "Shortcuts"), (Tab::Layouts, "Layouts")];
+const TABS: [(Tab, &str); 3] = [
+    (Tab::Appearance, words::APPEARANCE),
+    (Tab::Shortcuts, words::SHORTCUTS),
+    (Tab::Layouts, words::LAYOUTS),
+];
 
 impl SettingsPage {
     pub(super) fn toggle(&mut self) {
@@ -86,15 +89,15 @@ impl SettingsPage {
     fn shortcuts(&mut self, ui: &mut egui::Ui, shortcuts: &mut Shortcuts, commands: &[Offered]) {
         self.listen(ui, shortcuts, commands);
         ui.horizontal(|ui| {
-            let label = ui.label("Find");
+            let label = ui.label(words::FIND);
             ui.add(egui::TextEdit::singleline(&mut self.filter).desired_width(60.0 * STEP))
                 .labelled_by(label.id);
-            let reset = egui::Button::new("All as they come");
+            let reset = egui::Button::new(words::AS_THEY_COME);
             if ui.add_enabled(shortcuts.is_changed(), reset).clicked() {
                 shortcuts.reset();
             }
         });
-        ui.weak("Click a shortcut, then press the new keys. Backspace: none. Escape: as it was.");
+        ui.weak(words::HOW);
         let filter = self.filter.to_lowercase();
         let list = egui::ScrollArea::vertical().max_height(LIST_HEIGHT).min_scrolled_height(LIST_HEIGHT);
         list.auto_shrink([false, true]).show(ui, |ui| {
@@ -111,15 +114,15 @@ impl SettingsPage {
         ui.label(egui::RichText::new(offered.of).color(Tokens::of(ui).text_weak));
         let is_heard = self.listening.as_deref() == Some(offered.key.as_ref());
         let shown = match offered.command.shortcut {
-            _ if is_heard => "press keys ...".to_owned(),
+            _ if is_heard => words::PRESS.to_owned(),
             Some(shortcut) => ui.format_shortcut(&shortcut),
-            None => "none".to_owned(),
+            None => words::NONE.to_owned(),
         };
         let button =
             egui::Button::selectable(is_heard, shown.as_str()).min_size(egui::vec2(32.0 * STEP, 0.0));
         let button = ui.add(button);
         button.widget_info(|| {
-            let label = format!("Shortcut of {}: {shown}", offered.command.name);
+            let label = words::shortcut_of(offered.command.name, &shown);
             egui::WidgetInfo::labeled(egui::Role::Button, true, label)
         });
         if button.clicked() {
@@ -156,28 +159,28 @@ impl SettingsPage {
 
     fn layouts(&mut self, ui: &mut egui::Ui, preferences: &mut Preferences, layout: &mut Layout) {
         ui.horizontal(|ui| {
-            let label = ui.label("Name");
+            let label = ui.label(words::LAYOUT_NAME);
             ui.add(egui::TextEdit::singleline(&mut self.layout_name).desired_width(60.0 * STEP))
                 .labelled_by(label.id);
             let name = self.layout_name.trim();
-            let keep = egui::Button::new("Keep the present layout");
+            let keep = egui::Button::new(words::KEEP_LAYOUT);
             if ui.add_enabled(!name.is_empty(), keep).clicked() {
                 preferences.layouts.insert(name.to_owned(), layout.clone());
                 self.layout_name.clear();
             }
         });
         if preferences.layouts.is_empty() {
-            ui.weak("No layout is kept yet. Drag tabs to arrange the window, then keep it under a name.");
+            ui.weak(words::NO_LAYOUT);
         }
         let mut unwanted = None;
         for (name, kept) in &preferences.layouts {
             ui.horizontal(|ui| {
                 let usable = dock::is_usable(kept);
-                let button = ui.add_enabled(usable, egui::Button::new("Use"));
-                if button.on_hover_text(format!("Arranges the window as '{name}'")).clicked() {
+                let button = ui.add_enabled(usable, egui::Button::new(words::USE));
+                if button.on_hover_text(words::use_layout(name)).clicked() {
                     *layout = kept.clone();
                 }
-                if ui.button("Remove").on_hover_text(format!("Forgets '{name}'")).clicked() {
+                if ui.button(words::REMOVE).on_hover_text(words::remove_layout(name)).clicked() {
                     unwanted = Some(name.clone());
                 }
                 ui.label(name);
@@ -191,16 +194,16 @@ impl SettingsPage {
 
 fn appearance(ui: &mut egui::Ui, preferences: &mut Preferences) {
     egui::Grid::new("appearance").num_columns(2).show(ui, |ui| {
-        ui.label("Theme");
+        ui.label(words::THEME);
         ui.horizontal(|ui| {
             for (theme, name) in
-                [(Theme::System, "As the system"), (Theme::Light, "Light"), (Theme::Dark, "Dark")]
+                [(Theme::System, words::AS_SYSTEM), (Theme::Light, words::LIGHT), (Theme::Dark, words::DARK)]
             {
                 ui.radio_value(&mut preferences.theme, theme, name);
             }
         });
         ui.end_row();
-        let label = ui.label("Size of the interface");
+        let label = ui.label(words::SCALE);
         let mut percent = preferences.scale * 100.0;
         let range = SCALES.start() * 100.0..=SCALES.end() * 100.0;
         // While it is dragged, a change would move the field under the pointer.

@@ -1,20 +1,22 @@
 //! From the document to what is drawn, in jobs: garment and fabrics loaded, directions and vertices made.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use amc_core::Result;
 use amc_core::amc::Amc;
-use amc_core::direction::{self, Direction};
 use amc_core::mesh::{Garment, Picker, Unit};
 use amc_core::render::{Bounds, Cloth, Drawing};
 use eframe::egui::ColorImage;
 use studio_plugin::document::{Asset, FabricId, Project};
 use studio_plugin::{Job, Jobs, Notices, Registry, Stage};
 
+use super::texts::notices as words;
 use super::thumbnail;
-use crate::scene::{load_fabric, load_garment, vertex_occlusion};
+use crate::scene::{
+    DocumentLook, asset_path, document_looks, dressed, load_fabric, load_garment, vertex_occlusion,
+};
 
 /// How large things are that people wear or lay out, metres.
 const LIKELY_SIZES: std::ops::RangeInclusive<f64> = 0.05..=8.0;
@@ -71,7 +73,7 @@ struct Loaded {
 #[derive(Debug, Clone)]
 struct Recipe {
     loaded: Loaded,
-    looks: Vec<(Option<FabricId>, Direction)>,
+    looks: Vec<DocumentLook>,
     fabrics: BTreeMap<FabricId, Arc<Amc>>,
 }
 
@@ -114,7 +116,7 @@ impl Stager {
             let (asset, unit) = wanted.clone();
             self.garment.wanted = Some(wanted);
             let load = move |_: &amc_core::Progress<'_>| Loaded::new(&asset, unit);
-            self.garment.job = Some(jobs.start(format!("Opening {}", project.garment.name()), load));
+            self.garment.job = Some(jobs.start(words::opening(project.garment.name()), load));
         }
         if let Some(result) = self.garment.job.as_ref().and_then(Job::poll) {
             self.garment.job = None;
@@ -154,8 +156,8 @@ impl Stager {
             if loading.wanted.as_ref() != Some(&fabric.asset) {
                 let asset = fabric.asset.clone();
                 loading.wanted = Some(asset.clone());
-                loading.job = Some(jobs.start(format!("Opening {}", fabric.name), move |progress| {
-                    let amc = load_fabric(&path(&asset), progress)?;
+                loading.job = Some(jobs.start(words::opening(&fabric.name), move |progress| {
+                    let amc = load_fabric(&asset_path(&asset), progress)?;
                     let ball = thumbnail::ball(&amc);
                     Ok((Arc::new(amc), ball))
                 }));
@@ -176,7 +178,7 @@ impl Stager {
     fn update_drawings(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
         let recipe = self.loaded.as_ref().map(|loaded| Recipe {
             loaded: loaded.clone(),
-            looks: looks(project, &loaded.garment, &self.stage.fabrics),
+            looks: document_looks(project, &loaded.garment, |id| self.stage.fabrics.contains_key(&id)),
             fabrics: self.stage.fabrics.clone(),
         });
         let compared = project.view.compared.as_ref().filter(|compared| compared.changes_panels());
@@ -212,14 +214,14 @@ impl Drawn {
         // One at a time: what has changed meanwhile is drawn next.
         if self.job.is_none() && self.of.as_ref() != Some(&recipe) {
             self.of = Some(recipe.clone());
-            self.job = Some(jobs.start("Directions", move |_| recipe.drawing()));
+            self.job = Some(jobs.start(words::DIRECTIONS, move |_| recipe.drawing()));
         }
     }
 }
 
 impl Loaded {
     fn new(asset: &Asset, unit: Unit) -> Result<Self> {
-        let garment = load_garment(&path(asset), unit)?;
+        let garment = load_garment(&asset_path(asset), unit)?;
         let tangents = garment.normals.clone();
         let plain = Drawing::new(&garment, tangents, None, Vec::new(), |_| Cloth::Plain)?;
         let picker = Picker::new(&plain)?;
@@ -232,7 +234,7 @@ impl Loaded {
     /// The plain drawing with the occlusion of every vertex.
     fn start_shading(&self, asset: &Asset, jobs: &mut Jobs) -> Job<Arc<Drawing>> {
         let (garment, plain) = (Arc::clone(&self.garment), Arc::clone(&self.plain));
-        jobs.start(format!("Shading the folds of {}", asset.name()), move |progress| {
+        jobs.start(words::shading(asset.name()), move |progress| {
             let occlusion = vertex_occlusion(&garment, progress)?;
             plain.with_occlusion(&occlusion).map(Arc::new)
         })
@@ -241,48 +243,14 @@ impl Loaded {
 
 impl Recipe {
     fn drawing(&self) -> Result<Drawing> {
-        let garment = &self.loaded.garment;
-        let directions: Vec<Direction> = self.looks.iter().map(|look| look.1).collect();
-        let tangents = direction::tangents(garment, &directions)?;
-        let numbers: BTreeMap<FabricId, usize> = self.fabrics.keys().copied().zip(0..).collect();
-        let cloth = |panel: usize| {
-            self.looks[panel].0.and_then(|id| numbers.get(&id)).map_or(Cloth::Plain, |&n| Cloth::Fabric(n))
-        };
-        let fabrics = self.fabrics.values().cloned().collect();
-        self.loaded.plain.dressed(tangents.vectors, fabrics, cloth)
+        dressed(&self.loaded.plain, &self.loaded.garment, &self.looks, &self.fabrics)
     }
 }
 
 /// What to say of a garment that nobody could wear: most likely its numbers are no metres.
 fn unlikely_size(garment: &Garment) -> Option<String> {
     let size = 2.0 * Bounds::of(&garment.positions).ok()?.radius;
-    (!LIKELY_SIZES.contains(&size)).then(|| {
-        format!(
-            "the garment is {size:.2} m large: if its file counts in another unit, say so in the pane 'Panel', where no panel is selected"
-        )
-    })
-}
-
-/// Every panel's fabric, where it is loaded, and direction.
-fn looks(
-    project: &Project,
-    garment: &Garment,
-    loaded: &BTreeMap<FabricId, Arc<Amc>>,
-) -> Vec<(Option<FabricId>, Direction)> {
-    let look = |panel: &amc_core::mesh::Panel| {
-        let look = project.look_of(panel);
-        let fabric = look.fabric.filter(|id| loaded.contains_key(id));
-        (fabric, look.direction.unwrap_or_else(|| Direction::along_grain(panel)))
-    };
-    garment.panels.iter().map(look).collect()
-}
-
-/// What the loaders know an asset by.
-fn path(asset: &Asset) -> PathBuf {
-    match asset {
-        Asset::Bundled(name) => PathBuf::from(name),
-        Asset::File { path, .. } => path.clone(),
-    }
+    (!LIKELY_SIZES.contains(&size)).then(|| super::texts::files::unlikely_size(size))
 }
 
 /// The end of a file's name by which it is known, and what it then is.

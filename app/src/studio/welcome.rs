@@ -2,7 +2,7 @@
 
 use eframe::egui;
 
-use super::texts;
+use super::texts::{self, welcome as words};
 use super::theme::{STEP, Tokens};
 
 /// What a card offers to do.
@@ -24,24 +24,9 @@ pub(super) enum Chosen {
 }
 
 const CARDS: [(Step, &str, &str, &str); 3] = [
-    (
-        Step::Turn,
-        "Turn it",
-        "Drag the garment. The camera and the light stay; the gloss runs over the folds.",
-        "Let it turn",
-    ),
-    (
-        Step::Dress,
-        "Dress a panel",
-        "Click a sleeve or the collar, then a fabric. Drop your own files anywhere.",
-        "Show the fabrics",
-    ),
-    (
-        Step::Swap,
-        "Change its direction",
-        "Press R: warp and weft change places. Ctrl+Z takes it back.",
-        "Swap them now",
-    ),
+    (Step::Turn, words::TURN, words::TURN_TEXT, words::TURN_BUTTON),
+    (Step::Dress, words::DRESS, words::DRESS_TEXT, words::DRESS_BUTTON),
+    (Step::Swap, words::DIRECT, words::DIRECT_TEXT, words::DIRECT_BUTTON),
 ];
 
 /// Narrowest and widest that a card is, points.

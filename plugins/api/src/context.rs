@@ -3,7 +3,7 @@
 use amc_core::render::gpu::Gpu;
 
 use crate::document::{Document, Edit, Gesture, ViewSettings};
-use crate::{Jobs, Notices, Selection, Stage};
+use crate::{Ask, Jobs, Notices, Selection, Stage};
 
 /// The studio, as a plugin sees it for the length of one call.
 #[derive(Debug)]
@@ -21,6 +21,8 @@ pub struct Context<'a> {
     /// The graphics device; none where the studio draws on the processor.
     pub gpu: Option<&'a Gpu>,
     requests: &'a mut Vec<Request>,
+    /// The id of the plugin that is called.
+    pub(crate) plugin: &'static str,
 }
 
 /// What is done after the call, in the order asked for.
@@ -34,6 +36,8 @@ pub enum Request {
     View(ViewSettings),
     /// A text for the clipboard.
     Copy(String),
+    /// The plugin of this id wants to know where to save.
+    AskWhere(&'static str, Ask),
 }
 
 impl<'a> Context<'a> {
@@ -45,7 +49,7 @@ impl<'a> Context<'a> {
         gpu: Option<&'a Gpu>,
         requests: &'a mut Vec<Request>,
     ) -> Self {
-        Self { document, stage, selection, jobs, notices, gpu, requests }
+        Self { document, stage, selection, jobs, notices, gpu, requests, plugin: "" }
     }
 
     /// Submits an edit: one step of the undo.
@@ -66,6 +70,12 @@ impl<'a> Context<'a> {
     /// Looks at the garment in another way.
     pub fn set_view(&mut self, view: ViewSettings) {
         self.requests.push(Request::View(view));
+    }
+
+    /// Asks the person, by a file dialog, where something is to be saved. The answer comes to [`crate::Plugin::chosen`], in
+    /// a later frame; there is none where the dialog is called off, or another one is open.
+    pub fn ask_where(&mut self, ask: Ask) {
+        self.requests.push(Request::AskWhere(self.plugin, ask));
     }
 
     /// Puts a text into the clipboard.

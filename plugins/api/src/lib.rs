@@ -8,6 +8,8 @@
 //! Without the feature `window` there are no plugins: only what a program without a window uses of documents.
 
 #[cfg(feature = "window")]
+mod ask;
+#[cfg(feature = "window")]
 mod command;
 #[cfg(feature = "window")]
 mod context;
@@ -25,6 +27,8 @@ mod stage;
 #[cfg(feature = "window")]
 mod viewport;
 
+#[cfg(feature = "window")]
+pub use ask::{Ask, FileKind};
 #[cfg(feature = "window")]
 pub use command::Command;
 #[cfg(feature = "window")]

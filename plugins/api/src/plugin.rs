@@ -97,6 +97,10 @@ pub trait Plugin {
     /// Takes in a file with one of the suffixes of [`Plugin::importers`].
     fn import(&mut self, _file: &Path, _studio: &mut Context<'_>) {}
 
+    /// The person has chosen the file that was asked for by [`Context::ask_where`]; `what` is the question's id. It need not
+    /// be there yet; the dialog has asked whether one that is may be replaced.
+    fn chosen(&mut self, _what: &str, _file: &Path, _studio: &mut Context<'_>) {}
+
     /// Called once a frame, before anything is drawn: to take in what jobs have made.
     fn update(&mut self, _studio: &mut Context<'_>) {}
 

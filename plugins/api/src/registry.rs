@@ -37,6 +37,7 @@ impl Registered {
         studio: &mut Context<'_>,
         call: impl FnOnce(&mut dyn Plugin, &mut Context<'_>) -> T,
     ) -> Option<T> {
+        studio.plugin = self.plugin.id();
         let outcome = self.guarded(|plugin| call(plugin, studio))?;
         if outcome.is_none() {
             self.tell_off(studio.notices);
@@ -118,5 +119,52 @@ impl Registry {
         for plugin in &mut self.plugins {
             plugin.call(studio, &mut call);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::{Document, Project};
+    use crate::{Ask, FileKind, Jobs, Request, Selection, Stage};
+
+    /// Asks a question in every frame.
+    struct Asking(&'static str);
+
+    impl Plugin for Asking {
+        fn id(&self) -> &'static str {
+            self.0
+        }
+
+        fn name(&self) -> &'static str {
+            "Asking"
+        }
+
+        fn update(&mut self, studio: &mut Context<'_>) {
+            const KINDS: &[FileKind] = &[FileKind { name: "Lists", suffixes: &["csv"] }];
+            studio.ask_where(Ask { id: "list", title: String::new(), name: String::new(), kinds: KINDS });
+        }
+    }
+
+    #[test]
+    fn a_question_is_that_of_the_plugin_that_asked() {
+        let mut registry = Registry::default();
+        registry.register(Asking("first"));
+        registry.register(Asking("second"));
+        let (document, stage) = (Document::new(Project::default()), Stage::default());
+        let (mut selection, mut jobs, mut notices) =
+            (Selection::default(), Jobs::new(|| {}), Notices::default());
+        let mut requests = Vec::new();
+        let about = (&mut jobs, &mut notices);
+        let mut studio = Context::new((&document, &stage), &mut selection, about, None, &mut requests);
+        registry.each(&mut studio, |plugin, studio| plugin.update(studio));
+        let askers: Vec<_> = requests
+            .iter()
+            .filter_map(|request| match request {
+                Request::AskWhere(plugin, ask) => Some((*plugin, ask.id)),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(askers, [("first", "list"), ("second", "list")]);
     }
 }

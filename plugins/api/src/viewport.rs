@@ -81,7 +81,9 @@ mod tests {
             [Projection::Orthographic { half_height: 1.0 }, Projection::Perspective { fov_y: 0.9 }]
         {
             let object_to_view = Mat4::from_translation(Vec3::new(0.0, 0.0, -3.0));
-            let view = View { object_to_view, projection, width: 400, height: 200, near: 1.0, far: 5.0 };
+            let shift = Vec2::ZERO;
+            let view =
+                View { object_to_view, projection, width: 400, height: 200, near: 1.0, far: 5.0, shift };
             let rect = egui::Rect::from_min_size(Pos2::new(30.0, 20.0), egui::vec2(200.0, 100.0));
             let hidden = BTreeSet::new();
             let seen = ViewportView { rect, view, pixels_per_point: 2.0, picker: &picker, hidden: &hidden };

@@ -66,12 +66,28 @@ fn full_screen(normal: Vec3, tangent: Vec3, fabric: Option<Arc<Amc>>) -> Drawing
 
 fn orthographic(width: u32, height: u32) -> View {
     let projection = Projection::Orthographic { half_height: 1.0 };
-    View { object_to_view: Mat4::IDENTITY, projection, width, height, near: -2.0, far: 2.0 }
+    View {
+        object_to_view: Mat4::IDENTITY,
+        projection,
+        width,
+        height,
+        near: -2.0,
+        far: 2.0,
+        shift: Vec2::ZERO,
+    }
 }
 
 fn perspective(width: u32, height: u32) -> View {
     let projection = Projection::Perspective { fov_y: 1.2 };
-    View { object_to_view: Mat4::IDENTITY, projection, width, height, near: 0.1, far: 100.0 }
+    View {
+        object_to_view: Mat4::IDENTITY,
+        projection,
+        width,
+        height,
+        near: 0.1,
+        far: 100.0,
+        shift: Vec2::ZERO,
+    }
 }
 
 /// Where the line of sight through a pixel's centre goes, at depth 1.

@@ -105,6 +105,7 @@ fn view() -> View {
         height: 16,
         near: 0.1,
         far: 10.0,
+        shift: Vec2::ZERO,
     }
 }
 

@@ -3,6 +3,7 @@
 use eframe::egui;
 use studio_plugin::{Context, NoticeKind, Pane, Place, Plugin};
 
+use crate::studio::texts::activity as texts;
 use crate::studio::theme::{STEP, Tokens};
 
 pub(super) struct Activity;
@@ -13,13 +14,13 @@ impl Plugin for Activity {
     }
 
     fn name(&self) -> &'static str {
-        "Activity"
+        texts::NAME
     }
 
     fn panes(&self) -> Vec<Pane> {
         vec![
-            Pane { id: "jobs", title: "Jobs", place: Place::Bottom },
-            Pane { id: "log", title: "Log", place: Place::Bottom },
+            Pane { id: "jobs", title: texts::JOBS, place: Place::Bottom },
+            Pane { id: "log", title: texts::LOG, place: Place::Bottom },
         ]
     }
 
@@ -31,11 +32,11 @@ impl Plugin for Activity {
 fn jobs(ui: &mut egui::Ui, studio: &Context<'_>) {
     let views = studio.jobs.views();
     if views.is_empty() {
-        ui.weak("Nothing is running.");
+        ui.weak(texts::NO_JOBS);
     }
     for (index, job) in views.iter().enumerate() {
         ui.horizontal(|ui| {
-            if ui.button("Cancel").on_hover_text(format!("Stops '{}'", job.name)).clicked() {
+            if ui.button(texts::CANCEL).on_hover_text(texts::stops(&job.name)).clicked() {
                 studio.jobs.cancel(index);
             }
             let text =
@@ -56,7 +57,7 @@ fn jobs(ui: &mut egui::Ui, studio: &Context<'_>) {
 fn log(ui: &mut egui::Ui, studio: &Context<'_>) {
     let tokens = Tokens::of(ui);
     if studio.notices.all().is_empty() {
-        ui.weak("Nothing has happened yet.");
+        ui.weak(texts::NO_NOTICES);
     }
     for notice in studio.notices.all().iter().rev() {
         let colour = match notice.kind {

@@ -7,6 +7,7 @@ use eframe::egui::{self, vec2};
 use studio_plugin::document::{Asset, Edit, FabricId, FabricInUse};
 use studio_plugin::{Context, Importer, Pane, Place, Plugin};
 
+use crate::studio::texts::fabrics as texts;
 use crate::studio::theme::STEP;
 use crate::studio::thumbnail::Textures;
 
@@ -22,15 +23,15 @@ impl Plugin for Fabrics {
     }
 
     fn name(&self) -> &'static str {
-        "Fabrics"
+        texts::NAME
     }
 
     fn panes(&self) -> Vec<Pane> {
-        vec![Pane { id: "list", title: "Fabrics", place: Place::Left }]
+        vec![Pane { id: "list", title: texts::NAME, place: Place::Left }]
     }
 
     fn importers(&self) -> Vec<Importer> {
-        vec![Importer { name: "Fabrics", suffixes: &["amc.ktx2", "ktx2"] }]
+        vec![Importer { name: texts::NAME, suffixes: &["amc.ktx2", "ktx2"] }]
     }
 
     fn import(&mut self, file: &Path, studio: &mut Context<'_>) {
@@ -40,18 +41,13 @@ impl Plugin for Fabrics {
     }
 
     fn show(&mut self, _pane: &str, ui: &mut egui::Ui, studio: &mut Context<'_>) {
-        let whom = match studio.selection.panels.len() {
-            0 => "all panels".to_owned(),
-            1 => "the selected panel".to_owned(),
-            count => format!("{count} selected panels"),
-        };
-        ui.weak(format!("A click puts a fabric on {whom}. Drop AMC files here to add them."));
+        ui.weak(texts::hint(studio.selection.panels.len()));
         ui.add_space(STEP);
         let fabrics = studio.document.project().fabrics.clone();
         for fabric in &fabrics {
             let detail = studio.stage.fabrics.get(&fabric.id).map_or_else(String::new, |amc| {
                 let size = amc.size();
-                format!("{0} x {0} x {1}, R = {2}", size.side(), size.slices(), amc.symmetry.order())
+                texts::detail(size.side(), size.slices(), amc.symmetry.order())
             });
             ui.horizontal(|ui| {
                 let (rect, _) = ui.allocate_exact_size(vec2(7.0 * STEP, 7.0 * STEP), egui::Sense::hover());
@@ -65,7 +61,7 @@ impl Plugin for Fabrics {
             });
         }
         ui.add_space(2.0 * STEP);
-        ui.strong("With the program");
+        ui.strong(texts::BUNDLED);
         for bundled in BUNDLED {
             let asset = Asset::Bundled(format!("fabric:{}", bundled.name));
             if !fabrics.iter().any(|fabric| fabric.asset == asset)

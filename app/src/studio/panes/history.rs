@@ -3,6 +3,8 @@
 use eframe::egui;
 use studio_plugin::{Context, Pane, Place, Plugin};
 
+use crate::studio::texts::history as texts;
+
 pub(super) struct History;
 
 impl Plugin for History {
@@ -11,17 +13,17 @@ impl Plugin for History {
     }
 
     fn name(&self) -> &'static str {
-        "History"
+        texts::NAME
     }
 
     fn panes(&self) -> Vec<Pane> {
-        vec![Pane { id: "steps", title: "History", place: Place::Right }]
+        vec![Pane { id: "steps", title: texts::NAME, place: Place::Right }]
     }
 
     fn show(&mut self, _pane: &str, ui: &mut egui::Ui, studio: &mut Context<'_>) {
         let position = studio.document.position();
         let mut wanted = None;
-        if ui.selectable_label(position == 0, "The beginning").clicked() {
+        if ui.selectable_label(position == 0, texts::BEGINNING).clicked() {
             wanted = Some(0);
         }
         for (index, name) in studio.document.steps().enumerate() {

@@ -7,6 +7,7 @@ use studio_plugin::document::{Edit, Gesture};
 use studio_plugin::{Command, Context, Pane, Place, Plugin};
 
 use super::panels::flags;
+use crate::studio::texts::{NO_FABRIC, OPENING, inspector as texts};
 use crate::studio::theme::STEP;
 
 /// The angle field: a drag of it is one gesture.
@@ -17,22 +18,17 @@ pub(super) struct Inspector {
 
 const SWAP: Command = Command {
     id: "swap",
-    name: "Swap warp and weft",
-    tooltip: "Turns the direction of the selected panels (of all, where none is) by 90 degrees",
+    name: texts::SWAP,
+    tooltip: texts::SWAP_TIP,
     shortcut: Some(KeyboardShortcut::new(Modifiers::NONE, Key::R)),
 };
 const BIAS: Command = Command {
     id: "bias",
-    name: "Turn to the bias",
-    tooltip: "Turns the direction of the selected panels (of all, where none is) by 45 degrees",
+    name: texts::BIAS,
+    tooltip: texts::BIAS_TIP,
     shortcut: Some(KeyboardShortcut::new(Modifiers::SHIFT, Key::R)),
 };
-const GRAIN: Command = Command {
-    id: "grain",
-    name: "Back to the grain",
-    tooltip: "The selected panels (all, where none is) are cut along their grain again",
-    shortcut: None,
-};
+const GRAIN: Command = Command { id: "grain", name: texts::GRAIN, tooltip: texts::GRAIN_TIP, shortcut: None };
 
 impl Plugin for Inspector {
     fn id(&self) -> &'static str {
@@ -40,7 +36,7 @@ impl Plugin for Inspector {
     }
 
     fn name(&self) -> &'static str {
-        "Direction"
+        texts::NAME
     }
 
     fn commands(&self) -> Vec<Command> {
@@ -68,24 +64,24 @@ impl Plugin for Inspector {
     }
 
     fn panes(&self) -> Vec<Pane> {
-        vec![Pane { id: "panel", title: "Panel", place: Place::Right }]
+        vec![Pane { id: "panel", title: texts::PANE, place: Place::Right }]
     }
 
     fn show(&mut self, _pane: &str, ui: &mut egui::Ui, studio: &mut Context<'_>) {
         let Some(garment) = studio.stage.garment.clone() else {
-            ui.weak("The garment is being opened.");
+            ui.weak(OPENING);
             return;
         };
         let panels = picked(&garment, studio);
         match (studio.selection.panels.len(), panels.as_slice()) {
             (0, _) => {
-                ui.heading("All panels");
-                ui.weak("Click a panel in the view or in the list to change it alone.");
+                ui.heading(texts::ALL);
+                ui.weak(texts::CLICK);
                 unit(ui, studio);
             }
             (1, [panel]) => facts(ui, panel, &garment),
             (count, _) => {
-                ui.heading(format!("{count} panels"));
+                ui.heading(texts::panels(count));
             }
         }
         if panels.is_empty() {
@@ -110,13 +106,13 @@ fn unit(ui: &mut egui::Ui, studio: &mut Context<'_>) {
     }
     let mut unit = project.unit;
     ui.horizontal(|ui| {
-        let label = ui.label("Unit of the file");
+        let label = ui.label(texts::UNIT);
         let list = egui::ComboBox::from_id_salt("unit").selected_text(unit.symbol()).show_ui(ui, |ui| {
             for each in Unit::ALL {
                 ui.selectable_value(&mut unit, each, each.symbol());
             }
         });
-        list.response.labelled_by(label.id).on_hover_text("What the numbers in it mean");
+        list.response.labelled_by(label.id).on_hover_text(texts::UNIT_TIP);
     });
     if unit != project.unit {
         studio.submit(Edit::SetUnit(unit));
@@ -140,15 +136,13 @@ fn direction(panel: &Panel, studio: &Context<'_>) -> Direction {
 fn facts(ui: &mut egui::Ui, panel: &Panel, garment: &Garment) {
     ui.heading(&panel.name);
     let name = |index: usize| garment.panels.get(index).map_or("", |panel| panel.name.as_str());
-    let mut facts = vec![
-        ("Area", format!("{:.0} cm2", panel.area * 1e4)),
-        ("Triangles", panel.triangles.len().to_string()),
-    ];
+    let mut facts =
+        vec![(texts::AREA, texts::area(panel.area)), (texts::TRIANGLES, panel.triangles.len().to_string())];
     if let Some(grain) = panel.pattern.grain {
-        facts.push(("Grain", format!("{:.1} degrees", grain.to_degrees())));
+        facts.push((texts::GRAIN_FACT, texts::degrees(grain)));
     }
     if let Some(mirror) = panel.pattern.mirror {
-        facts.push(("Mirror", name(mirror).to_owned()));
+        facts.push((texts::MIRROR, name(mirror).to_owned()));
     }
     egui::Grid::new("facts").num_columns(2).show(ui, |ui| {
         for (what, value) in facts {
@@ -169,24 +163,24 @@ fn fabric(ui: &mut egui::Ui, panels: &[&Panel], studio: &mut Context<'_>) {
     let named =
         |id| project.fabrics.iter().find(|fabric| Some(fabric.id) == id).map(|fabric| fabric.name.clone());
     let shown = match same {
-        Some(id) => named(id).unwrap_or_else(|| "no fabric".to_owned()),
-        None => "several".to_owned(),
+        Some(id) => named(id).unwrap_or_else(|| NO_FABRIC.to_owned()),
+        None => texts::SEVERAL.to_owned(),
     };
     let fabrics = project.fabrics.clone();
     let ids: Vec<String> = panels.iter().map(|panel| panel.id.clone()).collect();
     ui.horizontal(|ui| {
-        let label = ui.label("Fabric");
+        let label = ui.label(texts::FABRIC);
         let list = egui::ComboBox::from_id_salt("fabric").selected_text(shown).show_ui(ui, |ui| {
             for fabric in fabrics {
                 if ui.selectable_label(same == Some(Some(fabric.id)), &fabric.name).clicked() {
                     studio.submit(Edit::SetFabric { panels: ids.clone(), fabric: Some(fabric.id) });
                 }
             }
-            if ui.selectable_label(same == Some(None), "no fabric").clicked() {
+            if ui.selectable_label(same == Some(None), NO_FABRIC).clicked() {
                 studio.submit(Edit::SetFabric { panels: ids.clone(), fabric: None });
             }
         });
-        list.response.labelled_by(label.id).on_hover_text("What the panels are made of");
+        list.response.labelled_by(label.id).on_hover_text(texts::FABRIC_TIP);
     });
 }
 
@@ -199,10 +193,8 @@ impl Inspector {
         let before = degrees;
         ui.horizontal(|ui| {
             let field = egui::DragValue::new(&mut degrees).speed(0.5).max_decimals(1).suffix("°");
-            let label = ui.label("Direction");
-            let field = ui.add(field).labelled_by(label.id).on_hover_text(
-                "Counter-clockwise in the flat pattern, from the right as drawn with v up; drag or type",
-            );
+            let label = ui.label(texts::NAME);
+            let field = ui.add(field).labelled_by(label.id).on_hover_text(texts::ANGLE_TIP);
             if field.drag_started() {
                 self.dragged = Some(Gesture::begin());
             }
@@ -219,8 +211,8 @@ impl Inspector {
         });
         ui.horizontal(|ui| {
             for (source, name, tooltip) in [
-                (Source::Gradient, "Gradient", "Across the lines of equal u: the paper's direction"),
-                (Source::Yarn, "Yarn", "Where the yarn really goes on sheared cloth"),
+                (Source::Gradient, texts::GRADIENT, texts::GRADIENT_TIP),
+                (Source::Yarn, texts::YARN, texts::YARN_TIP),
             ] {
                 if ui.radio(first.source == source, name).on_hover_text(tooltip).clicked() {
                     let gesture = Gesture::begin();

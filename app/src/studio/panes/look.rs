@@ -5,37 +5,37 @@ use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 use studio_plugin::document::{Comparison, Lens, NamedView, TurningStyle, ViewSettings};
 use studio_plugin::{Command, Context, Pane, Place, Plugin};
 
-use crate::studio::texts;
+use crate::studio::texts::look as texts;
 use crate::studio::theme::STEP;
 
 pub(super) struct Look;
 
 /// The named views, in the order of [`NamedView::ALL`].
 const NAMED: [(&str, &str, Key); 6] = [
-    ("front", "Front view", Key::Num1),
-    ("back", "Back view", Key::Num2),
-    ("left", "Left view", Key::Num3),
-    ("right", "Right view", Key::Num4),
-    ("top", "View from above", Key::Num5),
-    ("bottom", "View from below", Key::Num6),
+    ("front", texts::FRONT, Key::Num1),
+    ("back", texts::BACK, Key::Num2),
+    ("left", texts::LEFT, Key::Num3),
+    ("right", texts::RIGHT, Key::Num4),
+    ("top", texts::ABOVE, Key::Num5),
+    ("bottom", texts::BELOW, Key::Num6),
 ];
 
 const FIT: Command = Command {
     id: "fit",
-    name: "Fit the garment",
-    tooltip: "Shows the whole garment in the middle of the view",
+    name: texts::FIT,
+    tooltip: texts::FIT_TIP,
     shortcut: Some(KeyboardShortcut::new(Modifiers::NONE, Key::Num0)),
 };
 const AUTO_TURN: Command = Command {
     id: "auto-turn",
-    name: "Turn by itself",
-    tooltip: "The garment turns until this is chosen again",
+    name: texts::AUTO_TURN,
+    tooltip: texts::AUTO_TURN_TIP,
     shortcut: Some(KeyboardShortcut::new(Modifiers::NONE, Key::T)),
 };
 const COMPARE: Command = Command {
     id: "compare",
-    name: "Split view",
-    tooltip: "Shows another look of the same garment right of a divider; chosen again, the view is whole",
+    name: texts::COMPARE,
+    tooltip: texts::COMPARE_TIP,
     shortcut: Some(KeyboardShortcut::new(Modifiers::NONE, Key::C)),
 };
 
@@ -54,14 +54,14 @@ impl Plugin for Look {
     }
 
     fn name(&self) -> &'static str {
-        texts::VIEW_MENU
+        crate::studio::texts::VIEW_MENU
     }
 
     fn commands(&self) -> Vec<Command> {
         let named = NAMED.into_iter().map(|(id, name, key)| Command {
             id,
             name,
-            tooltip: "Turns the garment; the camera and the light stay",
+            tooltip: texts::NAMED_TIP,
             shortcut: Some(KeyboardShortcut::new(Modifiers::NONE, key)),
         });
         named.chain([FIT, AUTO_TURN, COMPARE]).collect()
@@ -82,7 +82,7 @@ impl Plugin for Look {
     }
 
     fn panes(&self) -> Vec<Pane> {
-        vec![Pane { id: "settings", title: "Look", place: Place::Right }]
+        vec![Pane { id: "settings", title: texts::PANE, place: Place::Right }]
     }
 
     fn show(&mut self, _pane: &str, ui: &mut egui::Ui, studio: &mut Context<'_>) {
@@ -93,8 +93,7 @@ impl Plugin for Look {
             lens(ui, &mut view);
             shading(ui, &mut view, studio);
         });
-        ui.checkbox(&mut view.occlusion, "Darken the folds")
-            .on_hover_text("Ambient occlusion of every vertex");
+        ui.checkbox(&mut view.occlusion, texts::OCCLUSION).on_hover_text(texts::OCCLUSION_TIP);
         background(ui, &mut view);
         auto_turn(ui, &mut view);
         ui.add_space(2.0 * STEP);
@@ -109,9 +108,9 @@ fn angles(ui: &mut egui::Ui, view: &mut ViewSettings) {
     let mut angles = view.angles();
     let before = angles;
     for (name, tooltip, value) in [
-        ("Yaw", "About the garment's vertical axis", &mut angles.yaw),
-        ("Pitch", "Towards the viewer or away", &mut angles.pitch),
-        ("Roll", "In the plane of the picture", &mut angles.roll),
+        (texts::YAW, texts::YAW_TIP, &mut angles.yaw),
+        (texts::PITCH, texts::PITCH_TIP, &mut angles.pitch),
+        (texts::ROLL, texts::ROLL_TIP, &mut angles.roll),
     ] {
         let label = ui.label(name);
         let field = egui::DragValue::new(value).speed(0.5).max_decimals(1).suffix("°");
@@ -123,23 +122,23 @@ fn angles(ui: &mut egui::Ui, view: &mut ViewSettings) {
     }
     choice(
         ui,
-        "Dragging",
+        texts::DRAGGING,
         &mut view.turning,
-        &[(TurningStyle::Arcball, "Turns it as a ball"), (TurningStyle::Turntable, "Keeps it upright")],
+        &[(TurningStyle::Arcball, texts::ARCBALL), (TurningStyle::Turntable, texts::TURNTABLE)],
     );
 }
 
 fn lens(ui: &mut egui::Ui, view: &mut ViewSettings) {
     let mut perspective = view.lens != Lens::Orthographic;
-    choice(ui, "Lens", &mut perspective, &[(false, "Parallel"), (true, "Perspective")]);
+    choice(ui, texts::LENS, &mut perspective, &[(false, texts::PARALLEL), (true, texts::PERSPECTIVE)]);
     let mut focal_length = match view.lens {
         Lens::Orthographic => FOCAL_LENGTH,
         Lens::Perspective { focal_length_mm } => focal_length_mm,
     };
     if perspective {
-        let label = ui.label("Focal length");
+        let label = ui.label(texts::FOCAL_LENGTH);
         let field = egui::DragValue::new(&mut focal_length).range(12.0..=1200.0).speed(1.0).suffix(" mm");
-        ui.add(field).labelled_by(label.id).on_hover_text("For a frame of 36 x 24 mm");
+        ui.add(field).labelled_by(label.id).on_hover_text(texts::FOCAL_LENGTH_TIP);
         ui.end_row();
     }
     view.lens =
@@ -148,26 +147,26 @@ fn lens(ui: &mut egui::Ui, view: &mut ViewSettings) {
 
 fn shading(ui: &mut egui::Ui, view: &mut ViewSettings, studio: &Context<'_>) {
     let modes: Vec<_> = studio.stage.modes.iter().map(|mode| (mode.id.to_owned(), mode.name)).collect();
-    choice(ui, "Shading", &mut view.mode, &modes);
+    choice(ui, texts::SHADING, &mut view.mode, &modes);
     choice(
         ui,
-        "Azimuth",
+        texts::AZIMUTH,
         &mut view.cyclic,
         &[
-            (Cyclic::Cyclic, "Per vertex, cyclic"),
-            (Cyclic::Fragment, "Per fragment"),
-            (Cyclic::Naive, "Per vertex, naive"),
+            (Cyclic::Cyclic, texts::CYCLIC),
+            (Cyclic::Fragment, texts::FRAGMENT),
+            (Cyclic::Naive, texts::NAIVE),
         ],
     );
     choice(
         ui,
-        "Perspective",
+        texts::PERSPECTIVE,
         &mut view.perspective,
         &[
-            (Perspective::Half, "Half vector"),
-            (Perspective::Full, "Full"),
-            (Perspective::Paper, "Paper"),
-            (Perspective::Off, "Off"),
+            (Perspective::Half, texts::HALF),
+            (Perspective::Full, texts::FULL),
+            (Perspective::Paper, texts::PAPER),
+            (Perspective::Off, texts::OFF),
         ],
     );
 }
@@ -176,14 +175,12 @@ fn shading(ui: &mut egui::Ui, view: &mut ViewSettings, studio: &Context<'_>) {
 fn background(ui: &mut egui::Ui, view: &mut ViewSettings) {
     ui.horizontal(|ui| {
         let mut own = view.background.is_some();
-        if ui.checkbox(&mut own, "Background").on_hover_text("Behind the garment, also in pictures").changed()
-        {
+        if ui.checkbox(&mut own, texts::BACKGROUND).on_hover_text(texts::BACKGROUND_TIP).changed() {
             view.background = own.then_some(BACKGROUND);
         }
         if let Some(colour) = &mut view.background {
-            let picker = ui.color_edit_button_srgb(colour).on_hover_text("Its colour");
-            picker
-                .widget_info(|| egui::WidgetInfo::labeled(egui::Role::ColorWell, true, "Background colour"));
+            let picker = ui.color_edit_button_srgb(colour).on_hover_text(texts::COLOUR_TIP);
+            picker.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ColorWell, true, texts::COLOUR));
         }
     });
 }
@@ -197,8 +194,8 @@ fn auto_turn(ui: &mut egui::Ui, view: &mut ViewSettings) {
         }
         if let Some(speed) = &mut view.auto_turn {
             let range = -ViewSettings::MOST_AUTO_TURN..=ViewSettings::MOST_AUTO_TURN;
-            let field = egui::DragValue::new(speed).range(range).speed(1.0).suffix("° per second");
-            ui.add(field).labelled_by(label.id).on_hover_text("Seen from above, counter-clockwise");
+            let field = egui::DragValue::new(speed).range(range).speed(1.0).suffix(texts::PER_SECOND);
+            ui.add(field).labelled_by(label.id).on_hover_text(texts::PER_SECOND_TIP);
         }
     });
 }
@@ -216,20 +213,18 @@ fn compare(ui: &mut egui::Ui, view: &mut ViewSettings, studio: &Context<'_>) {
     let Some(compared) = &mut view.compared else { return };
     egui::Grid::new("compare").num_columns(2).show(ui, |ui| {
         let fabrics = studio.document.project().fabrics.iter();
-        let fabrics: Vec<_> = std::iter::once((None, "Each panel's own"))
+        let fabrics: Vec<_> = std::iter::once((None, texts::OWN_FABRIC))
             .chain(fabrics.map(|fabric| (Some(fabric.id), fabric.name.as_str())))
             .collect();
-        choice(ui, "Right: fabric", &mut compared.fabric, &fabrics);
-        let label = ui.label("Right: turned by");
+        choice(ui, texts::RIGHT_FABRIC, &mut compared.fabric, &fabrics);
+        let label = ui.label(texts::RIGHT_TURNED);
         let field = egui::DragValue::new(&mut compared.turned_deg).range(-360.0..=360.0).suffix("°");
-        ui.add(field)
-            .labelled_by(label.id)
-            .on_hover_text("All directions, counter-clockwise in the flat pattern");
+        ui.add(field).labelled_by(label.id).on_hover_text(texts::RIGHT_TURNED_TIP);
         ui.end_row();
-        let modes: Vec<_> = std::iter::once((None, "As on the left"))
+        let modes: Vec<_> = std::iter::once((None, texts::SAME_SHADING))
             .chain(studio.stage.modes.iter().map(|mode| (Some(mode.id.to_owned()), mode.name)))
             .collect();
-        choice(ui, "Right: shading", &mut compared.mode, &modes);
+        choice(ui, texts::RIGHT_SHADING, &mut compared.mode, &modes);
     });
 }
 

@@ -1,6 +1,7 @@
 //! The studio's own panes: plugins like any other. A pane is one file here and one line below.
 
 mod activity;
+mod export;
 mod fabrics;
 mod history;
 mod inspector;
@@ -16,6 +17,7 @@ pub(super) fn register(registry: &mut Registry) {
     registry.register(fabrics::Fabrics::default());
     registry.register(inspector::Inspector::default());
     registry.register(look::Look);
+    registry.register(export::Export::default());
     registry.register(history::History);
     registry.register(notes::Notes::default());
     registry.register(activity::Activity);

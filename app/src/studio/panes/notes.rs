@@ -4,6 +4,8 @@ use eframe::egui;
 use studio_plugin::document::{Edit, Gesture, Project};
 use studio_plugin::{Context, Pane, Place, Plugin};
 
+use crate::studio::texts::notes as texts;
+
 /// What is written while the field has the focus is one step of the undo.
 #[derive(Debug, Default)]
 pub(super) struct Notes {
@@ -16,24 +18,22 @@ impl Plugin for Notes {
     }
 
     fn name(&self) -> &'static str {
-        "Notes"
+        texts::NAME
     }
 
     fn panes(&self) -> Vec<Pane> {
-        vec![Pane { id: "text", title: "Notes", place: Place::Bottom }]
+        vec![Pane { id: "text", title: texts::NAME, place: Place::Bottom }]
     }
 
     fn show(&mut self, _pane: &str, ui: &mut egui::Ui, studio: &mut Context<'_>) {
         let mut text = studio.document.project().notes.clone();
         let field = egui::TextEdit::multiline(&mut text)
-            .hint_text("Orders, widths, who to ask: kept with the project")
+            .hint_text(texts::HINT)
             .char_limit(Project::LONGEST_NOTES / 4)
             .desired_width(f32::INFINITY)
             .desired_rows(4);
         let field = ui.add(field);
-        field.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::Role::MultilineTextInput, true, "Notes on the project")
-        });
+        field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::MultilineTextInput, true, texts::FIELD));
         if field.changed() {
             let gesture = *self.writing.get_or_insert_with(Gesture::begin);
             studio.submit_in(gesture, Edit::SetNotes(text));

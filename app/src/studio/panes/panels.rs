@@ -6,6 +6,7 @@ use eframe::egui::{self, RichText, Sense, vec2};
 use studio_plugin::document::Edit;
 use studio_plugin::{Command, Context, Pane, Place, Plugin};
 
+use crate::studio::texts::{NO_FABRIC, OPENING, panels as texts};
 use crate::studio::theme::{STEP, Tokens};
 use crate::studio::thumbnail::Textures;
 
@@ -17,20 +18,20 @@ pub(super) struct Panels {
 
 const HIDE: Command = Command {
     id: "hide",
-    name: "Hide selected panels",
-    tooltip: "They are not drawn until they are shown again",
+    name: texts::HIDE,
+    tooltip: texts::HIDE_TIP,
     shortcut: Some(egui::KeyboardShortcut::new(egui::Modifiers::NONE, egui::Key::H)),
 };
 const ISOLATE: Command = Command {
     id: "isolate",
-    name: "Hide all others",
-    tooltip: "Only the selected panels are drawn",
+    name: texts::ISOLATE,
+    tooltip: texts::ISOLATE_TIP,
     shortcut: Some(egui::KeyboardShortcut::new(egui::Modifiers::SHIFT, egui::Key::H)),
 };
 const SHOW_ALL: Command = Command {
     id: "show-all",
-    name: "Show all panels",
-    tooltip: "Panels that were hidden are drawn again",
+    name: texts::SHOW_ALL,
+    tooltip: texts::SHOW_ALL_TIP,
     shortcut: Some(egui::KeyboardShortcut::new(egui::Modifiers::ALT, egui::Key::H)),
 };
 
@@ -40,7 +41,7 @@ impl Plugin for Panels {
     }
 
     fn name(&self) -> &'static str {
-        "Panels"
+        texts::NAME
     }
 
     fn commands(&self) -> Vec<Command> {
@@ -66,12 +67,12 @@ impl Plugin for Panels {
     }
 
     fn panes(&self) -> Vec<Pane> {
-        vec![Pane { id: "list", title: "Panels", place: Place::Left }]
+        vec![Pane { id: "list", title: texts::NAME, place: Place::Left }]
     }
 
     fn show(&mut self, _pane: &str, ui: &mut egui::Ui, studio: &mut Context<'_>) {
         let Some(garment) = studio.stage.garment.clone() else {
-            ui.weak("The garment is being opened.");
+            ui.weak(OPENING);
             return;
         };
         let mut hovered = None;
@@ -80,7 +81,7 @@ impl Plugin for Panels {
                 self.row(ui, studio, &garment, *panel, &mut hovered);
                 continue;
             }
-            let title = format!("{part} ({})", panels.len());
+            let title = texts::part(part, panels.len());
             egui::CollapsingHeader::new(title).id_salt(part).default_open(true).show(ui, |ui| {
                 for panel in panels {
                     self.row(ui, studio, &garment, panel, &mut hovered);
@@ -114,7 +115,7 @@ impl Panels {
             let weak = if selected { tokens.on_accent } else { tokens.text_weak };
             let fabric = look.fabric.and_then(|id| studio.document.project().fabric(id));
             let worn = fabric.map_or_else(
-                || "no fabric".to_owned(),
+                || NO_FABRIC.to_owned(),
                 |fabric| format!("{}, {:.0}°", fabric.name, direction.angle.to_degrees()),
             );
             let mark = if panel.flags.mirrored || panel.flags.degenerate { " *" } else { "" };
@@ -154,9 +155,9 @@ impl Panels {
 }
 
 fn show_box(ui: &mut egui::Ui, studio: &mut Context<'_>, panel: &Panel, mut visible: bool) {
-    let eye = ui.checkbox(&mut visible, "").on_hover_text("Shown in the view");
+    let eye = ui.checkbox(&mut visible, "").on_hover_text(texts::SHOWN_TIP);
     eye.widget_info(|| {
-        let label = format!("Show {}", panel.name);
+        let label = texts::show(&panel.name);
         egui::WidgetInfo::selected(egui::Role::CheckBox, true, visible, label)
     });
     if eye.changed() {
@@ -183,11 +184,9 @@ fn parts(garment: &Garment) -> Vec<(&str, Vec<usize>)> {
 /// What is unusual about a panel's UVs, for people.
 pub(super) fn flags(flags: amc_core::mesh::PanelFlags) -> &'static str {
     match (flags.mirrored, flags.degenerate) {
-        (true, true) => {
-            "Its UVs are mirrored, and some of it has none: directions there are filled from the neighbours"
-        }
-        (true, false) => "Its UVs are mirrored",
-        (false, true) => "Some of it has no UVs: directions there are filled from the neighbours",
-        (false, false) => "Its UVs are as they should be",
+        (true, true) => texts::MIRRORED_AND_DEGENERATE,
+        (true, false) => texts::MIRRORED,
+        (false, true) => texts::DEGENERATE,
+        (false, false) => texts::REGULAR,
     }
 }

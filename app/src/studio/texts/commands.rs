@@ -1,0 +1,33 @@
+//! The studio's own commands.
+
+pub(crate) const NEW: &str = "New project";
+pub(crate) const NEW_TIP: &str = "Begins with the bundled shirt";
+pub(crate) const OPEN: &str = "Open ...";
+pub(crate) const OPEN_TIP: &str = "Opens a project, a garment or a fabric";
+pub(crate) const SAVE: &str = "Save";
+pub(crate) const SAVE_TIP: &str = "Saves the project where it is";
+pub(crate) const SAVE_AS: &str = "Save as ...";
+pub(crate) const SAVE_AS_TIP: &str = "Saves the project elsewhere";
+pub(crate) const QUIT: &str = "Quit";
+pub(crate) const QUIT_TIP: &str = "Closes the window";
+pub(crate) const UNDO_TIP: &str = "Takes back the last step";
+pub(crate) const REDO_TIP: &str = "Does again what was taken back";
+pub(crate) const SELECT_ALL: &str = "Select all panels";
+pub(crate) const SELECT_ALL_TIP: &str = "All that take a fabric";
+pub(crate) const SELECT_NONE: &str = "Select nothing";
+pub(crate) const SELECT_NONE_TIP: &str = "Nothing is selected";
+pub(crate) const PALETTE: &str = "All commands ...";
+pub(crate) const PALETTE_TIP: &str = "Finds a command by its name";
+pub(crate) const THEME: &str = "Light or dark";
+pub(crate) const THEME_TIP: &str = "Changes the window's theme";
+pub(crate) const RESET_LAYOUT: &str = "Reset layout";
+pub(crate) const RESET_LAYOUT_TIP: &str = "Puts all panes back";
+pub(crate) const LARGER: &str = "Larger text";
+pub(crate) const LARGER_TIP: &str = "Makes the whole interface larger";
+pub(crate) const SMALLER: &str = "Smaller text";
+pub(crate) const SMALLER_TIP: &str = "Makes the whole interface smaller";
+pub(crate) const SETTINGS_TIP: &str = "Theme, text size, shortcuts, layouts";
+pub(crate) const GUIDE_TIP: &str = "How everything is done";
+pub(crate) const FIRST_STEPS_TIP: &str = "Three things to try";
+pub(crate) const ABOUT_TIP: &str = "The version, and the licences of all that it is made of";
+pub(crate) const PANE_TIP: &str = "Brings this pane forward";
