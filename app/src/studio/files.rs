@@ -11,7 +11,8 @@ use studio_plugin::{FileKind, Job};
 
 use super::path_field::PathField;
 use super::stager::{Kind, kind};
-use super::texts::files as words;
+#[cfg(feature = "dialogs")]
+use super::texts::{dialogs as words, files::where_is};
 use crate::project::SUFFIX;
 
 /// What a dialog is for.
@@ -104,7 +105,7 @@ fn ask_system(purpose: Purpose, name: String, jobs: &mut Jobs) -> Job<Option<Pat
     jobs.start(words::CHOOSING, move |_| {
         let dialog = rfd::FileDialog::new();
         Ok(match purpose {
-            Purpose::Find(missing) => dialog.set_title(words::where_is(missing.display())).pick_file(),
+            Purpose::Find(missing) => dialog.set_title(where_is(missing.display())).pick_file(),
             Purpose::Open => dialog
                 .add_filter(words::ALL_KINDS, &["amcproj", "glb", "gltf", "obj", "ktx2"])
                 .add_filter(words::PROJECTS, &["amcproj"])

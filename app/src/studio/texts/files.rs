@@ -3,11 +3,6 @@
 use std::fmt::Display;
 
 pub(crate) const SAVED_AFTER: &str = "The file was saved after it: it probably holds this work already.";
-pub(crate) const CHOOSING: &str = "Choosing a file";
-pub(crate) const ALL_KINDS: &str = "All that can be opened";
-pub(crate) const PROJECTS: &str = "Projects";
-pub(crate) const GARMENTS: &str = "Garments";
-pub(crate) const FABRICS: &str = "Fabrics";
 
 /// Asks for a missing file.
 pub(crate) fn where_is(file: impl Display) -> String {

@@ -4,6 +4,8 @@
 
 pub(crate) mod activity;
 pub(crate) mod commands;
+#[cfg(feature = "dialogs")]
+pub(crate) mod dialogs;
 pub(crate) mod export;
 pub(crate) mod fabrics;
 pub(crate) mod files;
