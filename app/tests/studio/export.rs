@@ -1,35 +1,21 @@
 //! Exports through the real interface, against the command line.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
-use std::time::{Duration, Instant};
 
 use amc_core::image::compare::Difference;
 use amc_core::image::decode;
-use amc_studio::studio::{App, Studio};
-use eframe::egui::{Key, Modifiers, Role};
-use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use eframe::egui::Role;
 
-/// How long a job may take before the test counts as hung.
-const PATIENCE: Duration = Duration::from_secs(240);
+use super::*;
 
 /// A window that keeps its things in `folder`, and asks for files by a path to be typed.
-fn window(folder: &Path, settings: &str) -> Harness<'static, App> {
+fn exporting(folder: &Path, settings: &str) -> Harness<'static, App> {
     let kept = folder.join("kept");
     std::fs::create_dir_all(&kept).unwrap();
     let settings = format!(r#"{{"plugins": {{"export": {settings}}}}}"#);
     amc_core::file::save_bytes(&kept.join("studio.json"), settings.as_bytes()).unwrap();
-    let studio = Studio::new().keeping_in(kept).without_dialogs();
-    let mut harness = Harness::builder()
-        .with_size([1280.0, 800.0])
-        .with_max_steps(100)
-        .wgpu()
-        .build_eframe(move |creation| studio.into_app(creation));
-    settle(&mut harness);
-    harness
+    window(Studio::new().without_dialogs(), folder)
 }
 
 /// Types where to save, over what is suggested (which is `name`), and presses the button.
@@ -45,18 +31,6 @@ fn save_as(harness: &mut Harness<'_, App>, name: &str, file: &Path) {
     harness.run_steps(2);
 }
 
-/// Runs frames until nothing is under way.
-fn settle(harness: &mut Harness<'_, App>) {
-    let start = Instant::now();
-    harness.step();
-    while !harness.state().is_settled() {
-        assert!(start.elapsed() < PATIENCE, "still not settled");
-        std::thread::sleep(Duration::from_millis(5));
-        harness.step();
-    }
-    harness.run_steps(2);
-}
-
 /// Runs the command of this name, by the palette.
 fn command(harness: &mut Harness<'_, App>, name: &str) {
     harness.key_press_modifiers(Modifiers::COMMAND, Key::P);
@@ -65,15 +39,6 @@ fn command(harness: &mut Harness<'_, App>, name: &str) {
     harness.run_steps(2);
     harness.key_press(Key::Enter);
     settle(harness);
-}
-
-/// Whether something in the window reads like this.
-fn reads(harness: &Harness<'_, App>, part: &str) -> bool {
-    let has = |text: String| text.contains(part);
-    harness
-        .query_all_by(|node| node.label().is_some_and(has) || node.value().is_some_and(has))
-        .next()
-        .is_some()
 }
 
 /// What the command line renders of the project `mine.amcproj` in `folder`.
@@ -94,7 +59,7 @@ fn the_window_exports_what_the_command_line_renders() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     let settings = r#"{"sizes": [[300, 220], [90, 120], [64, 64]], "frames": 4, "sides": [true, false, true, false, false, false]}"#;
-    let mut harness = window(here, settings);
+    let mut harness = exporting(here, settings);
     // Something to be seen in the picture: another direction, another view, a hidden panel.
     command(&mut harness, "Turn to the bias");
     command(&mut harness, "Left view");
@@ -133,13 +98,13 @@ fn the_window_exports_what_the_command_line_renders() {
     }
     harness.get_by_label("Log").click();
     settle(&mut harness);
-    assert!(reads(&harness, "exported: ") && reads(&harness, "turn.png"));
+    assert!(reads(&harness, &["exported: "]) && reads(&harness, &["turn.png"]));
 }
 
 #[test]
 fn the_form_says_how_large_and_a_dialog_called_off_does_nothing() {
     let folder = tempfile::tempdir().unwrap();
-    let mut harness = window(folder.path(), "{}");
+    let mut harness = exporting(folder.path(), "{}");
     // The menu of the same name comes first.
     harness.get_all_by_label("Export").last().unwrap().click();
     settle(&mut harness);
@@ -169,7 +134,7 @@ fn begin(harness: &mut Harness<'_, App>, file: &Path) {
     harness.get_by_label("Export ...").click();
     save_as(harness, "shirt.png", file);
     let start = Instant::now();
-    while !reads(harness, "Exporting huge.png") {
+    while !reads(harness, &["Exporting huge.png"]) {
         assert!(start.elapsed() < PATIENCE, "it does not begin");
         std::thread::sleep(Duration::from_millis(5));
         harness.step();
@@ -180,7 +145,7 @@ fn begin(harness: &mut Harness<'_, App>, file: &Path) {
 fn an_export_is_cancelled_and_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let settings = r#"{"sizes": [[32768, 32768], [1024, 1024], [640, 640]]}"#;
-    let mut harness = window(folder.path(), settings);
+    let mut harness = exporting(folder.path(), settings);
     harness.get_all_by_label("Export").last().unwrap().click();
     settle(&mut harness);
     let file = folder.path().join("huge.png");
@@ -188,14 +153,14 @@ fn an_export_is_cancelled_and_leaves_nothing() {
     // The list of jobs below the view has one, too.
     harness.get_all_by_label("Cancel").find(|button| button.rect().left() > 900.0).unwrap().click();
     settle(&mut harness);
-    assert!(!reads(&harness, "Exporting huge.png"));
+    assert!(!reads(&harness, &["Exporting huge.png"]));
     let left = || -> Vec<_> {
         std::fs::read_dir(folder.path()).unwrap().flatten().map(|file| file.file_name()).collect()
     };
     assert_eq!(left(), ["kept"]);
     harness.get_by_label("Log").click();
     settle(&mut harness);
-    assert!(reads(&harness, "the export was cancelled"));
+    assert!(reads(&harness, &["the export was cancelled"]));
     // A window that is closed leaves nothing either.
     begin(&mut harness, &file);
     drop(harness);
@@ -205,8 +170,8 @@ fn an_export_is_cancelled_and_leaves_nothing() {
 #[test]
 fn settings_that_make_no_sense_give_way_to_the_defaults() {
     let folder = tempfile::tempdir().unwrap();
-    let mut harness = window(folder.path(), r#"{"sizes": [[0, 5], [1, 1], [1, 1]]}"#);
+    let mut harness = exporting(folder.path(), r#"{"sizes": [[0, 5], [1, 1], [1, 1]]}"#);
     harness.get_by_label("Log").click();
     settle(&mut harness);
-    assert!(reads(&harness, "the settings of 'Export' are its defaults again"));
+    assert!(reads(&harness, &["the settings of 'Export' are its defaults again"]));
 }
