@@ -171,12 +171,7 @@ impl App {
     }
 
     /// One frame with nothing but a pane of [`App::panes`].
-    pub fn show_alone(
-        &mut self,
-        ui: &mut egui::Ui,
-        _frame: &mut eframe::Frame,
-        (plugin, pane): (&'static str, &'static str),
-    ) {
+    pub fn show_alone(&mut self, ui: &mut egui::Ui, (plugin, pane): (&'static str, &'static str)) {
         let all = self.begin_frame(ui);
         if let Some(wanted) = self.pressed(ui, &all) {
             self.run(wanted, ui);

@@ -54,7 +54,8 @@ const LIST_HEIGHT: f32 = 100.0 * STEP;
 pub(super) struct Help {
     /// The chapter that is open.
     chapter: Option<usize>,
-    is_about_open: bool,
+    /// The lines of the licences, while they are shown.
+    licences: Option<Vec<&'static str>>,
     cache: CommonMarkCache,
     are_pictures_known: bool,
 }
@@ -71,7 +72,7 @@ impl Help {
     }
 
     pub(super) fn toggle_about(&mut self) {
-        self.is_about_open = !self.is_about_open;
+        self.licences = if self.licences.is_some() { None } else { Some(LICENCES.lines().collect()) };
     }
 
     /// Shows what is open.
@@ -113,9 +114,8 @@ impl Help {
     }
 
     fn about(&mut self, ui: &egui::Ui) {
-        if !self.is_about_open {
-            return;
-        }
+        let Some(lines) = &self.licences else { return };
+        let mut closed = false;
         let modal = egui::Modal::new(egui::Id::unique("about")).show(ui, |ui| {
             ui.set_width(150.0 * STEP);
             ui.heading(format!("{} {}", texts::PROGRAM, env!("CARGO_PKG_VERSION")));
@@ -124,7 +124,6 @@ impl Help {
             ui.strong(texts::LICENCES);
             let weak = Tokens::of(ui).text_weak;
             let row = ui.text_style_height(&egui::TextStyle::Monospace);
-            let lines: Vec<&str> = LICENCES.lines().collect();
             let list = egui::ScrollArea::both().max_height(LIST_HEIGHT).min_scrolled_height(LIST_HEIGHT);
             list.auto_shrink(false).show_rows(ui, row, lines.len(), |ui, rows| {
                 for line in &lines[rows] {
@@ -133,12 +132,10 @@ impl Help {
                 }
             });
             ui.add_space(2.0 * STEP);
-            if ui.button(texts::CLOSE).clicked() {
-                self.is_about_open = false;
-            }
+            closed = ui.button(texts::CLOSE).clicked();
         });
-        if modal.should_close() {
-            self.is_about_open = false;
+        if closed || modal.should_close() {
+            self.licences = None;
         }
     }
 }

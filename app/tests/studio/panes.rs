@@ -13,8 +13,8 @@ struct Alone {
 }
 
 impl eframe::App for Alone {
-    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
-        self.app.show_alone(ui, frame, self.pane);
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        self.app.show_alone(ui, self.pane);
     }
 }
 
