@@ -6,6 +6,7 @@ mod garment;
 mod look;
 mod open;
 mod panel_option;
+mod print;
 mod project;
 #[cfg(feature = "window")]
 mod staged;
@@ -17,9 +18,12 @@ pub(crate) use garment::load_garment;
 pub(crate) use look::{PanelLook, StartingLook, directions, panel_looks};
 pub(crate) use open::{Scene, open_scene};
 pub(crate) use panel_option::PanelOption;
+#[cfg(feature = "window")]
+pub(crate) use print::load_print;
+pub(crate) use print::{WornPrint, load_prints, worn_prints};
 pub(crate) use project::{asset_path, hidden_panels, is_project, starting_looks};
 #[cfg(feature = "window")]
-pub(crate) use staged::{DocumentLook, document_looks, dressed};
+pub(crate) use staged::{Outfit, document_looks, dressed};
 
 use amc_core::mesh::Garment;
 use amc_core::render::{Cloth, Drawing};
@@ -37,10 +41,11 @@ pub(crate) fn vertex_occlusion(garment: &Garment, progress: &Progress<'_>) -> Re
     }
 }
 
-/// What is drawn: `garment` in these looks. Occlusion is left out where it is not wanted.
+/// What is drawn: `garment` in these looks, with these prints (none: without any). Occlusion is left out where it is not
+/// wanted.
 pub(crate) fn drawing(
     garment: &Garment,
-    looks: &[PanelLook],
+    (looks, prints): (&[PanelLook], &[Option<WornPrint>]),
     fabrics: Fabrics,
     with_occlusion: bool,
     progress: &Progress<'_>,
@@ -48,6 +53,8 @@ pub(crate) fn drawing(
     let tangents = direction::tangents(garment, &directions(looks))?;
     let occlusion = if with_occlusion { Some(vertex_occlusion(garment, progress)?) } else { None };
     Drawing::new(garment, tangents.vectors, occlusion.as_deref(), fabrics.into_tables(), |panel| {
-        looks[panel].fabric.map_or(Cloth::Plain, Cloth::Fabric)
+        let (look, print) = (&looks[panel], prints.get(panel).and_then(Option::as_ref));
+        let of = |fabric| print::printed(fabric, print, garment, &garment.panels[panel], &look.direction);
+        look.fabric.map_or(Cloth::Plain, of)
     })
 }

@@ -14,7 +14,8 @@ use amc_core::image::compare::Difference;
 use amc_core::mesh::Garment;
 use amc_core::render::gpu::{Backend, Gpu, Offscreen, Renderer};
 use amc_core::render::{
-    Camera, Cloth, Cyclic, Drawing, Mode, Orientation, Perspective, Projection, Shading, View, cpu,
+    Camera, Cloth, Cyclic, Drawing, LaidPrint, Laying, Mode, Orientation, Perspective, Print, Projection,
+    Shading, View, cpu,
 };
 use amc_core::shape;
 use amc_core::view_space::Azimuth;
@@ -48,6 +49,11 @@ macro_rules! on {
             #[test]
             fn coarse_triangles_backs_and_plain_parts() {
                 super::coarse_triangles_backs_and_plain_parts($backend);
+            }
+
+            #[test]
+            fn prints_near_and_afar() {
+                super::prints_near_and_afar($backend);
             }
         }
     };
@@ -224,6 +230,45 @@ fn every_perspective_mode(backend: Backend) {
         }
     }
     twins.agree(2 * 4 * 2);
+}
+
+/// A picture with broad bands and fine ones, transparent in a corner; its sides are no powers of two.
+fn print() -> Arc<Print> {
+    let pixels = (0..50 * 36).map(|k| {
+        let (x, y) = ((k % 50) as f32, (k / 50) as f32);
+        let alpha = if x < 12.0 && y < 9.0 { 0.0 } else { 1.0 };
+        [0.5 + 0.5 * (x * 0.25).sin(), 0.5 + 0.5 * (y * 0.7).cos(), 0.5 + 0.5 * (x + y).sin(), alpha]
+    });
+    Arc::new(Print::new(&Picture::new(50, 36, pixels.collect()).unwrap()).unwrap())
+}
+
+/// From a picture that is much larger than the screen's pixels to one that is smaller, repeated and once, over two directions.
+fn prints_near_and_afar(backend: Backend) {
+    let mut twins = Twins::new(backend);
+    let (fabric, print) = (fabric(Symmetry::Two, Azimuth::Transported), print());
+    let matcap = Mode::MatCap(ball());
+    for name in ["sheet", "torus"] {
+        let garment = Garment::new(shape::mesh(name).unwrap()).unwrap();
+        for (width, is_repeated) in [(0.9, true), (0.12, true), (0.01, true), (0.7, false)] {
+            let laying = Laying { width, turn: 0.4, shift: Vec2::new(0.05, 0.02), is_repeated };
+            let panel = &garment.panels[0];
+            let metres = garment.uv_to_metres(panel).unwrap();
+            let laid = LaidPrint::new(&print, &laying, panel, &Direction::default(), metres);
+            let mut printed = drawing(name, Arc::clone(&fabric));
+            printed.draws[0].cloth = Cloth::Printed(0, laid);
+            for (index, mode) in
+                [Mode::Amc, Mode::Isotropic, matcap.clone(), Mode::Normals].into_iter().enumerate()
+            {
+                for samples in [1, 4] {
+                    let what = format!("{name}, {width} m, mode {index}, {samples}");
+                    let shading = Shading { mode: mode.clone(), samples, ..Shading::default() };
+                    let view = perspective(&printed);
+                    twins.compare(&what, &printed, &view, &shading);
+                }
+            }
+        }
+    }
+    twins.agree(2 * 4 * 4 * 2);
 }
 
 /// A fan of few triangles around a point: each spans much of the azimuth; and half of them face away.

@@ -10,6 +10,7 @@ mod distortion;
 mod draft;
 pub(crate) mod extras;
 mod fabric_words;
+mod flat;
 mod fold;
 mod forest;
 pub mod gltf;

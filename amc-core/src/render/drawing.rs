@@ -112,8 +112,8 @@ impl Drawing {
             let fault = if triangles.start > triangles.end || triangles.end as usize > self.triangles.len() {
                 let held = self.triangles.len();
                 format!("triangles {} to {} of a drawing of {held}", triangles.start, triangles.end)
-            } else if let Cloth::Fabric(fabric) = cloth
-                && *fabric >= self.fabrics.len()
+            } else if let Some(fabric) = cloth.fabric()
+                && fabric >= self.fabrics.len()
             {
                 format!("fabric {fabric} of a drawing that has {}", self.fabrics.len())
             } else {

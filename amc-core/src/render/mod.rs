@@ -9,10 +9,14 @@ pub mod cpu;
 mod drawing;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+mod laid_print;
+mod print;
 pub mod shade;
 mod view;
 
 pub use camera::{Bounds, Camera, Orientation};
+pub use laid_print::{LaidPrint, Laying};
+pub use print::{Level, Print};
 pub use view::{Part, Projection, Ray, View};
 
 use std::ops::Range;
@@ -44,8 +48,28 @@ pub struct Vertex {
 pub enum Cloth {
     /// Index into [`Drawing::fabrics`].
     Fabric(usize),
+    /// A fabric with a picture over it, multiplied in.
+    Printed(usize, LaidPrint),
     /// No fabric: plain grey, lit from the viewer.
     Plain,
+}
+
+impl Cloth {
+    /// Its fabric's index into [`Drawing::fabrics`].
+    pub fn fabric(&self) -> Option<usize> {
+        match self {
+            Self::Fabric(fabric) | Self::Printed(fabric, _) => Some(*fabric),
+            Self::Plain => None,
+        }
+    }
+
+    /// Its print.
+    pub fn print(&self) -> Option<&LaidPrint> {
+        match self {
+            Self::Printed(_, print) => Some(print),
+            Self::Fabric(_) | Self::Plain => None,
+        }
+    }
 }
 
 /// A range of triangles in one cloth.
@@ -104,7 +128,7 @@ pub struct OwnMode {
     pub name: &'static str,
     /// Its text.
     pub text: &'static str,
-    /// Whether it looks up the fabric (`#import table`). Then parts without one stay grey.
+    /// Whether it looks up the fabric (`#import table`). Then parts without one stay grey. Prints are not shown.
     pub reads_fabric: bool,
 }
 

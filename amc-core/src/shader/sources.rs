@@ -16,18 +16,23 @@ macro_rules! embedded {
 
 /// Every file of `shaders/`, by name. A test holds this against the folder.
 static EMBEDDED: &[(&str, &str)] = embedded![
+    "amc_surface",
     "ball",
+    "ball_surface",
     "color",
     "cyclic",
     "facing",
     "mark",
     "mode_amc",
+    "mode_amc_printed",
     "mode_ball",
+    "mode_ball_printed",
     "mode_normals",
     "mode_plain",
     "mode_tangents",
     "mode_uv",
     "perspective",
+    "print",
     "surface",
     "table",
     "vertex",

@@ -20,7 +20,9 @@ use super::renderer::RendererChoice;
 use super::values::{Background, PictureSize, finite, unit};
 use super::{Failure, Outcome};
 use crate::pictures::{Device, Kind, Order, Painter, Size, Stand};
-use crate::scene::{Fabrics, PanelOption, Scene, drawing, hidden_panels, open_scene, panel_looks};
+use crate::scene::{
+    Fabrics, PanelOption, Scene, drawing, hidden_panels, load_prints, open_scene, panel_looks, worn_prints,
+};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
@@ -157,7 +159,11 @@ fn painter(
     let mut fabrics = Fabrics::default();
     let starting = (project.as_ref(), arguments.amc.as_deref());
     let looks = panel_looks(garment, starting, &arguments.panel, Some(&mut fabrics), progress)?;
-    let drawing = drawing(garment, &looks, fabrics, shading.occlusion, progress)?;
+    let prints = match project {
+        Some(project) => worn_prints(project, garment, &load_prints(project, garment)?),
+        None => Vec::new(),
+    };
+    let drawing = drawing(garment, (&looks, &prints), fabrics, shading.occlusion, progress)?;
     let hidden = project.as_ref().map(|project| hidden_panels(project, garment)).unwrap_or_default();
     Painter::new(device.clone(), drawing, &hidden)
 }

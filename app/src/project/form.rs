@@ -6,9 +6,11 @@ use std::path::Path;
 use amc_core::Result;
 use amc_core::direction::{Direction, Source};
 use amc_core::mesh::Unit;
+use amc_core::render::Laying;
+use glam::Vec2;
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
-use studio_plugin::document::{Asset, FabricId, FabricInUse, PanelChoice, Project, ViewSettings};
+use studio_plugin::document::{Asset, FabricId, FabricInUse, PanelChoice, PanelPrint, Project, ViewSettings};
 
 use super::paths;
 
@@ -75,8 +77,23 @@ struct PanelForm {
     fabric: Option<Option<FabricId>>,
     #[serde(default)]
     direction: Option<DirectionForm>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    print: Option<PrintForm>,
     #[serde(default = "yes")]
     visible: bool,
+}
+
+/// A picture over a fabric. Lengths are in metres.
+#[derive(Debug, Serialize, Deserialize)]
+struct PrintForm {
+    picture: AssetForm,
+    width: f32,
+    #[serde(default)]
+    turn_deg: f64,
+    #[serde(default)]
+    shift: Vec2,
+    #[serde(default = "yes")]
+    repeated: bool,
 }
 
 /// Null is a value, too.
@@ -104,14 +121,15 @@ impl ProjectForm {
         });
         let panels = project.panels.iter().map(|(id, choice)| {
             let direction = choice.direction.map(DirectionForm::new);
-            (id.clone(), PanelForm { fabric: choice.fabric, direction, visible: choice.visible })
+            let print = choice.print.as_ref().map(|print| PrintForm::new(print, folder)).transpose()?;
+            Ok((id.clone(), PanelForm { fabric: choice.fabric, direction, print, visible: choice.visible }))
         });
         Ok(Self {
             version: super::VERSION,
             garment: AssetForm::new(&project.garment, folder)?,
             unit: project.unit,
             fabrics: fabrics.collect::<Result<_>>()?,
-            panels: panels.collect(),
+            panels: panels.collect::<Result<_>>()?,
             plugins: project.plugins.clone(),
             view: project.view.clone(),
             notes: project.notes.clone(),
@@ -125,9 +143,10 @@ impl ProjectForm {
             let name = if name.is_empty() { asset.name() } else { name };
             FabricInUse { id, asset, name }
         });
-        let panels = self.panels.into_iter().map(|(id, PanelForm { fabric, direction, visible })| {
+        let panels = self.panels.into_iter().map(|(id, PanelForm { fabric, direction, print, visible })| {
             let direction = direction.map(DirectionForm::into_direction);
-            (id, PanelChoice { fabric, direction, visible })
+            let print = print.map(|print| print.into_print(folder));
+            (id, PanelChoice { fabric, direction, print, visible })
         });
         Project {
             garment: self.garment.into_asset(folder),
@@ -170,6 +189,21 @@ impl DirectionForm {
 
     fn into_direction(self) -> Direction {
         Direction { source: self.source, angle: self.angle_deg.to_radians() as f32 }
+    }
+}
+
+impl PrintForm {
+    fn new(print: &PanelPrint, folder: Option<&Path>) -> Result<Self> {
+        let Laying { width, turn, shift, is_repeated } = print.laying;
+        let picture = AssetForm::new(&print.picture, folder)?;
+        Ok(Self { picture, width, turn_deg: short_degrees(turn), shift, repeated: is_repeated })
+    }
+
+    fn into_print(self, folder: Option<&Path>) -> PanelPrint {
+        let Self { picture, width, turn_deg, shift, repeated } = self;
+        let turn = turn_deg.to_radians() as f32;
+        let laying = Laying { width, turn, shift, is_repeated: repeated };
+        PanelPrint { picture: picture.into_asset(folder), laying }
     }
 }
 

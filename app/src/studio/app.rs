@@ -253,6 +253,7 @@ impl App {
             Request::View(view) => self.desk.document.set_view(view),
             Request::Copy(text) => self.context.copy_text(text),
             Request::AskWhere(plugin, ask) => self.ask(Purpose::Where(plugin, ask)),
+            Request::AskWhich(plugin, ask) => self.ask(Purpose::Which(plugin, ask)),
         }
     }
 

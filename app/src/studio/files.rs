@@ -22,8 +22,10 @@ pub(super) enum Purpose {
     Save,
     /// Finding a file that is missing.
     Find(PathBuf),
-    /// What the plugin of this id has asked.
+    /// Where the plugin of this id is to save something.
     Where(&'static str, Ask),
+    /// Which file it is to take in.
+    Which(&'static str, Ask),
 }
 
 /// A question for a file, which does not hold the window up.
@@ -84,7 +86,7 @@ impl Dialog {
 /// `path`, ending as what was asked for does.
 pub(super) fn with_suffix(path: PathBuf, purpose: &Purpose) -> PathBuf {
     let suffixes: Vec<&str> = match purpose {
-        Purpose::Open | Purpose::Find(_) => return path,
+        Purpose::Open | Purpose::Find(_) | Purpose::Which(..) => return path,
         Purpose::Save => vec![SUFFIX],
         Purpose::Where(_, ask) => ask.kinds.iter().flat_map(|kind| kind.suffixes).copied().collect(),
     };
@@ -114,13 +116,16 @@ fn ask_system(purpose: Purpose, name: String, jobs: &mut Jobs) -> Job<Option<Pat
                 .pick_file(),
             Purpose::Save => dialog.add_filter(words::PROJECTS, &["amcproj"]).set_file_name(name).save_file(),
             Purpose::Where(_, ask) => {
-                let dialog = dialog.set_title(ask.title).set_file_name(ask.name);
-                let add =
-                    |dialog: rfd::FileDialog, kind: &FileKind| dialog.add_filter(kind.name, kind.suffixes);
-                ask.kinds.iter().fold(dialog, add).save_file()
+                of_kinds(dialog.set_file_name(ask.name), ask.kinds).set_title(ask.title).save_file()
             }
+            Purpose::Which(_, ask) => of_kinds(dialog, ask.kinds).set_title(ask.title).pick_file(),
         })
     })
+}
+
+#[cfg(feature = "dialogs")]
+fn of_kinds(dialog: rfd::FileDialog, kinds: &[FileKind]) -> rfd::FileDialog {
+    kinds.iter().fold(dialog, |dialog, kind| dialog.add_filter(kind.name, kind.suffixes))
 }
 
 /// What becomes of a file that is opened or dropped.

@@ -39,7 +39,7 @@ impl PathField {
             (Purpose::Where(_, ask), file) => file.map_or_else(current, folder).join(&ask.name),
             (Purpose::Find(missing), _) => missing.clone(),
             // Joined with nothing, a folder ends in what separates it from a name.
-            (Purpose::Open, file) => file.map_or_else(current, folder).join(""),
+            (Purpose::Open | Purpose::Which(..), file) => file.map_or_else(current, folder).join(""),
         };
         let text = start.to_string_lossy().into_owned();
         Self { found: Found::at(&text, purpose), text, is_new: true }
@@ -81,7 +81,7 @@ impl PathField {
     fn verb(&self, purpose: &Purpose) -> &'static str {
         match (purpose, self.found) {
             (Purpose::Open, _) => texts::OPEN,
-            (Purpose::Find(_), _) => texts::USE,
+            (Purpose::Find(_) | Purpose::Which(..), _) => texts::USE,
             (Purpose::Save | Purpose::Where(..), Found::File) => texts::REPLACE,
             (Purpose::Save | Purpose::Where(..), _) => texts::SAVE,
         }
@@ -89,7 +89,7 @@ impl PathField {
 
     fn can_be_chosen(&self, purpose: &Purpose) -> bool {
         match purpose {
-            Purpose::Open | Purpose::Find(_) => self.found == Found::File,
+            Purpose::Open | Purpose::Find(_) | Purpose::Which(..) => self.found == Found::File,
             Purpose::Save | Purpose::Where(..) => self.found != Found::Folder && !self.text.trim().is_empty(),
         }
     }
@@ -117,7 +117,7 @@ fn words(purpose: &Purpose) -> (&str, String) {
     match purpose {
         Purpose::Open => (texts::OPEN_TITLE, texts::OPEN_TEXT.to_owned()),
         Purpose::Save => (texts::SAVE_TITLE, texts::SAVE_TEXT.to_owned()),
-        Purpose::Where(_, ask) => {
+        Purpose::Where(_, ask) | Purpose::Which(_, ask) => {
             let kinds = ask.kinds.iter().flat_map(|kind| kind.suffixes).map(|suffix| format!(".{suffix}"));
             (&ask.title, texts::files::ends_in(&kinds.collect::<Vec<_>>().join(", ")))
         }

@@ -1,13 +1,13 @@
 //! From the document to what is drawn, in jobs: garment and fabrics loaded, directions and vertices made.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::path::Path;
 use std::sync::Arc;
 
 use amc_core::Result;
 use amc_core::amc::Amc;
 use amc_core::mesh::{Garment, Picker, Unit};
-use amc_core::render::{Bounds, Cloth, Drawing};
+use amc_core::render::{Bounds, Cloth, Drawing, Print};
 use eframe::egui::ColorImage;
 use studio_plugin::document::{Asset, FabricId, Project};
 use studio_plugin::{Job, Jobs, Notices, Registry, Stage};
@@ -15,7 +15,8 @@ use studio_plugin::{Job, Jobs, Notices, Registry, Stage};
 use super::texts::notices as words;
 use super::thumbnail;
 use crate::scene::{
-    DocumentLook, asset_path, document_looks, dressed, load_fabric, load_garment, vertex_occlusion,
+    Outfit, asset_path, document_looks, dressed, load_fabric, load_garment, load_print, vertex_occlusion,
+    worn_prints,
 };
 
 /// How large things are that people wear or lay out, metres.
@@ -33,6 +34,8 @@ pub(super) struct Stager {
     /// What darkens the folds takes longest, and comes when the garment is seen already.
     shaded: Option<Job<Arc<Drawing>>>,
     fabrics: BTreeMap<FabricId, Loading<Asset, (Arc<Amc>, ColorImage)>>,
+    /// Those that were begun; none: done.
+    prints: HashMap<Asset, Option<Job<Arc<Print>>>>,
     loaded: Option<Loaded>,
 }
 
@@ -73,15 +76,12 @@ struct Loaded {
 #[derive(Debug, Clone)]
 struct Recipe {
     loaded: Loaded,
-    looks: Vec<DocumentLook>,
-    fabrics: BTreeMap<FabricId, Arc<Amc>>,
+    outfit: Outfit,
 }
 
 impl PartialEq for Recipe {
     fn eq(&self, other: &Self) -> bool {
-        let same_fabrics = self.fabrics.len() == other.fabrics.len()
-            && self.fabrics.iter().zip(&other.fabrics).all(|((a, x), (b, y))| a == b && Arc::ptr_eq(x, y));
-        Arc::ptr_eq(&self.loaded.plain, &other.loaded.plain) && self.looks == other.looks && same_fabrics
+        Arc::ptr_eq(&self.loaded.plain, &other.loaded.plain) && self.outfit == other.outfit
     }
 }
 
@@ -98,6 +98,7 @@ impl Stager {
     pub(super) fn update(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
         self.update_garment(project, jobs, notices);
         self.update_fabrics(project, jobs, notices);
+        self.update_prints(project, jobs, notices);
         self.update_drawings(project, jobs, notices);
     }
 
@@ -108,6 +109,7 @@ impl Stager {
             || self.drawn.job.is_some()
             || self.compared.job.is_some()
             || self.fabrics.values().any(|it| it.job.is_some())
+            || self.prints.values().any(Option::is_some)
     }
 
     fn update_garment(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
@@ -175,20 +177,47 @@ impl Stager {
         }
     }
 
+    fn update_prints(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
+        let worn = project.panels.values().filter_map(|choice| Some(&choice.print.as_ref()?.picture));
+        let wanted: HashSet<&Asset> = worn.collect();
+        self.prints.retain(|picture, _| wanted.contains(picture));
+        self.stage.prints.retain(|picture, _| wanted.contains(picture));
+        for picture in wanted {
+            let loading = self.prints.entry(picture.clone()).or_insert_with(|| {
+                let file = picture.clone();
+                Some(jobs.start(words::opening(picture.name()), move |_| load_print(&file).map(Arc::new)))
+            });
+            if let Some(result) = loading.as_ref().and_then(Job::poll) {
+                *loading = None;
+                match result {
+                    Ok(print) => drop(self.stage.prints.insert(picture.clone(), print)),
+                    Err(error) => notices.failed(error),
+                }
+            }
+        }
+    }
+
     fn update_drawings(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
         let recipe = self.loaded.as_ref().map(|loaded| Recipe {
             loaded: loaded.clone(),
-            looks: document_looks(project, &loaded.garment, |id| self.stage.fabrics.contains_key(&id)),
-            fabrics: self.stage.fabrics.clone(),
+            outfit: Outfit {
+                looks: document_looks(project, &loaded.garment, |id| self.stage.fabrics.contains_key(&id)),
+                prints: worn_prints(project, &loaded.garment, &self.stage.prints),
+                fabrics: self.stage.fabrics.clone(),
+            },
         });
         let compared = project.view.compared.as_ref().filter(|compared| compared.changes_panels());
         let other = compared.zip(recipe.as_ref()).map(|(compared, recipe)| Recipe {
-            looks: recipe
-                .looks
-                .iter()
-                .map(|look| compared.look(*look, |id| recipe.fabrics.contains_key(&id)))
-                .collect(),
-            ..recipe.clone()
+            outfit: Outfit {
+                looks: recipe
+                    .outfit
+                    .looks
+                    .iter()
+                    .map(|look| compared.look(*look, |id| recipe.outfit.fabrics.contains_key(&id)))
+                    .collect(),
+                ..recipe.outfit.clone()
+            },
+            loaded: recipe.loaded.clone(),
         });
         self.drawn.update(recipe, jobs, notices);
         self.compared.update(other, jobs, notices);
@@ -243,7 +272,7 @@ impl Loaded {
 
 impl Recipe {
     fn drawing(&self) -> Result<Drawing> {
-        dressed(&self.loaded.plain, &self.loaded.garment, &self.looks, &self.fabrics)
+        dressed(&self.loaded.plain, &self.loaded.garment, &self.outfit)
     }
 }
 

@@ -249,3 +249,78 @@ fn type_over(harness: &mut Harness<'_, App>, text: &str) {
     harness.get_by_role(egui::Role::TextInput).type_text(text);
     settle(harness);
 }
+
+/// Stripes, red and clear.
+fn stripes(file: &Path) {
+    let stripe = |k: u32| if (k / 8).is_multiple_of(2) { [0.7, 0.05, 0.05, 1.0] } else { [0.0; 4] };
+    let pixels = (0..32 * 32).map(stripe).collect();
+    let picture = amc_core::image::Picture::new(32, 32, pixels).unwrap();
+    amc_core::image::encode::write_png(&picture, file, &[]).unwrap();
+}
+
+/// Brings the pane of prints to the front.
+fn show_prints(harness: &mut Harness<'_, App>) {
+    harness
+        .get_by(|node| node.label().is_some_and(|label| label == "Print") && node.toggled().is_some())
+        .click();
+    settle(harness);
+}
+
+#[test]
+fn a_print_is_dropped_laid_undone_saved_moved_and_opened_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path().join("here");
+    amc_core::file::make_folder(&place).unwrap();
+    let (roses, file) = (place.join("stripes.png"), place.join("printed.amcproj"));
+    stripes(&roses);
+    let mut harness = window(Studio::new(), folder.path());
+    let plain = picture(&mut harness);
+    harness.get_by(|node| node.label().is_some_and(|label| label.starts_with("back"))).click();
+    settle(&mut harness);
+    let selected = picture(&mut harness);
+
+    harness.state_mut().open(&roses);
+    settle(&mut harness);
+    let print = harness.state().document().project().print("back").cloned().unwrap();
+    assert_eq!(harness.state().document().undo_name(), Some("Print stripes on 1 panel"));
+    assert!(harness.state().document().project().print("yoke").is_none());
+    show_prints(&mut harness);
+    let printed = picture(&mut harness);
+    assert_ne!(printed, selected);
+
+    // A number is typed, the picture printed once; each is a step.
+    harness.get_by_role_and_label(egui::Role::SpinButton, "Width").focus();
+    settle(&mut harness);
+    // In a field this selects the text, not the panels.
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.step();
+    harness.event(egui::Event::Text("12.5".to_owned()));
+    settle(&mut harness);
+    press(&mut harness, Modifiers::NONE, Key::Enter);
+    click(&mut harness, "Repeat all over");
+    assert_eq!(harness.state().document().undo_name(), Some("Move the print of 1 panel"));
+    let laying = harness.state().document().project().print("back").unwrap().laying;
+    assert_eq!((laying.width, laying.is_repeated), (0.125, false));
+    press(&mut harness, Modifiers::COMMAND, Key::Z);
+    press(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert_eq!(harness.state().document().project().print("back"), Some(&print));
+
+    harness.state_mut().save_to(&file);
+    settle(&mut harness);
+    drop(harness);
+    // The folder is moved as it is: nothing is missing.
+    let moved = folder.path().join("there");
+    std::fs::rename(&place, &moved).unwrap();
+    let mut again = window(Studio::new().open([moved.join("printed.amcproj")]), folder.path());
+    let found = again.state().document().project().print("back").cloned().unwrap();
+    assert_eq!(found.laying, print.laying);
+    assert!(found.picture.path().unwrap().starts_with(&moved));
+    show_prints(&mut again);
+    let before = picture(&mut again);
+    click(&mut again, "Take the print off");
+    assert!(again.state().document().project().print("back").is_none());
+    assert_ne!(picture(&mut again), before);
+    press(&mut again, Modifiers::COMMAND, Key::Z);
+    assert_eq!(again.state().document().project().print("back"), Some(&found));
+    assert_ne!(plain, before);
+}

@@ -9,15 +9,16 @@ pub struct FileKind {
     pub suffixes: &'static [&'static str],
 }
 
-/// Where something is to be saved: asked by [`crate::Context::ask_where`], answered to [`crate::Plugin::chosen`].
+/// Where something is to be saved, or which file is to be taken in: asked by [`crate::Context::ask_where`] or
+/// [`crate::Context::ask_which`], answered to [`crate::Plugin::chosen`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Ask {
     /// By which the plugin knows the answer.
     pub id: &'static str,
     /// Of the dialog: "Save the picture".
     pub title: String,
-    /// The file's name that is suggested.
+    /// The file's name that is suggested; empty where a file is to be taken in.
     pub name: String,
-    /// What it can be saved as; not empty.
+    /// What it can be; not empty.
     pub kinds: &'static [FileKind],
 }

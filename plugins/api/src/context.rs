@@ -38,6 +38,8 @@ pub enum Request {
     Copy(String),
     /// The plugin of this id wants to know where to save.
     AskWhere(&'static str, Ask),
+    /// The plugin of this id wants to know which file to take in.
+    AskWhich(&'static str, Ask),
 }
 
 impl<'a> Context<'a> {
@@ -76,6 +78,11 @@ impl<'a> Context<'a> {
     /// a later frame; there is none where the dialog is called off, or another one is open.
     pub fn ask_where(&mut self, ask: Ask) {
         self.requests.push(Request::AskWhere(self.plugin, ask));
+    }
+
+    /// Asks the person, by a file dialog, which file is to be taken in. The answer comes as that of [`Context::ask_where`].
+    pub fn ask_which(&mut self, ask: Ask) {
+        self.requests.push(Request::AskWhich(self.plugin, ask));
     }
 
     /// Puts a text into the clipboard.

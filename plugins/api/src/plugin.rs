@@ -97,7 +97,7 @@ pub trait Plugin {
     /// Takes in a file with one of the suffixes of [`Plugin::importers`].
     fn import(&mut self, _file: &Path, _studio: &mut Context<'_>) {}
 
-    /// The person has chosen the file that was asked for by [`Context::ask_where`]; `what` is the question's id. It need not
+    /// The person has chosen the file that was asked for by [`Context::ask_where`] or [`Context::ask_which`]; `what` is the question's id. It need not
     /// be there yet; the dialog has asked whether one that is may be replaced.
     fn chosen(&mut self, _what: &str, _file: &Path, _studio: &mut Context<'_>) {}
 

@@ -1,15 +1,15 @@
 //! What the document refers to, loaded.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 use amc_core::amc::Amc;
 use amc_core::mesh::Garment;
-use amc_core::render::{Mode, Shading};
+use amc_core::render::{Mode, Print, Shading};
 use egui::ColorImage;
 
 use crate::ShadingChoice;
-use crate::document::{FabricId, ViewSettings};
+use crate::document::{Asset, FabricId, ViewSettings};
 
 /// The garment and the fabrics of the document, as far as they are loaded.
 #[derive(Debug, Clone)]
@@ -20,6 +20,8 @@ pub struct Stage {
     pub fabrics: BTreeMap<FabricId, Arc<Amc>>,
     /// A ball in each of them, a small picture.
     pub swatches: BTreeMap<FabricId, Arc<ColorImage>>,
+    /// The prints that are there, by their pictures.
+    pub prints: HashMap<Asset, Arc<Print>>,
     /// The garment's panels as flat pieces: small pictures in white, one for each panel.
     pub pieces: Vec<Arc<ColorImage>>,
     /// The shading modes there are: the studio's, then the plugins'.
@@ -32,6 +34,7 @@ impl Default for Stage {
             garment: None,
             fabrics: BTreeMap::new(),
             swatches: BTreeMap::new(),
+            prints: HashMap::new(),
             pieces: Vec::new(),
             modes: ShadingChoice::BUILT_IN.to_vec(),
         }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::clip::{Clipped, clip};
-use super::fragment::Paint;
+use super::fragment::Coat;
 use super::raster::WindowTriangle;
 use super::vertex::{Axis, Corner, VertexStage};
 use crate::render::{Drawing, Shading, View};
@@ -38,9 +38,9 @@ struct SetUp {
 }
 
 impl Assembly {
-    /// Of a checked drawing; `paints` has one entry for each draw.
-    pub(super) fn new(drawing: &Drawing, view: &View, shading: &Shading, paints: &[Paint]) -> Result<Self> {
-        let axes: Vec<Option<Axis>> = paints.iter().map(|paint| paint.axis(shading.cyclic)).collect();
+    /// Of a checked drawing; `coats` has one entry for each draw.
+    pub(super) fn new(drawing: &Drawing, view: &View, shading: &Shading, coats: &[Coat]) -> Result<Self> {
+        let axes: Vec<Option<Axis>> = coats.iter().map(|coat| coat.paint.axis(shading.cyclic)).collect();
         let mut distinct: Vec<Option<Axis>> = Vec::new();
         for axis in &axes {
             if !distinct.contains(axis) {

@@ -13,9 +13,28 @@ use crate::render::shade::{
     direction_colour, facing_normal, fragment_kappa, linear_colour, look_up_normal, picture_coordinates,
     plain, seen_light, table_coordinates, uv_colour,
 };
-use crate::render::{Cloth, Cyclic, Drawing, Mode, Shading, View};
+use crate::render::{Cloth, Cyclic, Draw, Drawing, LaidPrint, Mode, Shading, View};
 use crate::view_space::perpendicular;
 use crate::{Error, Result};
+
+/// What the triangles of one draw look like.
+#[derive(Debug, Clone)]
+pub(super) struct Coat {
+    pub(super) paint: Paint,
+    /// Over it.
+    pub(super) print: Option<LaidPrint>,
+}
+
+impl Coat {
+    /// That of every draw, in their order.
+    pub(super) fn of_draws(drawing: &Drawing, mode: &Mode) -> Result<Vec<Self>> {
+        let coat = |(draw, paint): (&Draw, Paint)| {
+            let print = draw.cloth.print().filter(|_| paint.is_cloth()).cloned();
+            Self { paint, print }
+        };
+        Ok(drawing.draws.iter().zip(Paint::of_draws(drawing, mode)?).map(coat).collect())
+    }
+}
 
 /// What the triangles of one draw are painted with.
 #[derive(Debug, Clone)]
@@ -36,7 +55,7 @@ pub(super) enum Paint {
 
 impl Paint {
     /// The paint of every draw, in their order; tables and pictures are made ready once per fabric.
-    pub(super) fn of_draws(drawing: &Drawing, mode: &Mode) -> Result<Vec<Self>> {
+    fn of_draws(drawing: &Drawing, mode: &Mode) -> Result<Vec<Self>> {
         let per_fabric = Self::of_fabrics(drawing, mode)?;
         let of_cloth = |cloth: &Cloth| match (mode, cloth) {
             (Mode::Normals, _) => Ok(Self::Normals),
@@ -47,7 +66,7 @@ impl Paint {
                 own.name
             ))),
             (Mode::Amc | Mode::Isotropic | Mode::MatCap(_), Cloth::Plain) => Ok(Self::Plain),
-            (_, Cloth::Fabric(index)) => {
+            (_, Cloth::Fabric(index) | Cloth::Printed(index, _)) => {
                 let paint = per_fabric.get(*index).cloned().flatten();
                 paint.ok_or_else(|| Error::invalid(format!("the drawing has no fabric {index}")))
             }
@@ -62,7 +81,7 @@ impl Paint {
             None => Err(Error::invalid("the MatCap picture has no pixels")),
         };
         let matcap = if let Mode::MatCap(ball) = mode { Some(picture(ball)?) } else { None };
-        let in_use = |index: usize| drawing.draws.iter().any(|draw| draw.cloth == Cloth::Fabric(index));
+        let in_use = |index: usize| drawing.draws.iter().any(|draw| draw.cloth.fabric() == Some(index));
         let of_fabric = |(index, fabric): (usize, &Arc<Amc>)| match mode {
             _ if !in_use(index) => Ok(None),
             Mode::Amc => Ok(Some(Self::Table(Arc::new(fabric.to_linear())))),
@@ -71,6 +90,11 @@ impl Paint {
             Mode::Normals | Mode::Tangents | Mode::Uv | Mode::Own(_) => Ok(None),
         };
         drawing.fabrics.par_iter().enumerate().map(of_fabric).collect()
+    }
+
+    /// Whether it shows a fabric.
+    fn is_cloth(&self) -> bool {
+        matches!(self, Self::Table(_) | Self::Picture(_))
     }
 
     /// The axis whose cyclic coordinate the vertices must send for it.

@@ -21,7 +21,7 @@ use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
 use self::assembly::Assembly;
-use self::fragment::{FragmentStage, Paint};
+use self::fragment::{Coat, FragmentStage, Paint};
 use self::quad::{Interpolation, pair_of};
 use self::raster::{Coverage, QUAD, Samples, WindowTriangle};
 use self::target::{TILE, Target};
@@ -43,10 +43,10 @@ pub fn render(drawing: &Drawing, view: &View, shading: &Shading, progress: &Prog
         other => return Err(Error::unsupported(format!("{other} samples per pixel; there can be 1 or 4"))),
     };
     progress.step("preparing fabrics", 0, 1)?;
-    let paints = Paint::of_draws(drawing, &shading.mode)?;
+    let coats = Coat::of_draws(drawing, &shading.mode)?;
     progress.step("placing vertices", 0, 1)?;
-    let assembly = Assembly::new(drawing, view, shading, &paints)?;
-    let scene = Scene { assembly, paints, fragments: FragmentStage { view, shading }, samples };
+    let assembly = Assembly::new(drawing, view, shading, &coats)?;
+    let scene = Scene { assembly, coats, fragments: FragmentStage { view, shading }, samples };
     scene.draw(progress)
 }
 
@@ -55,7 +55,7 @@ pub fn render(drawing: &Drawing, view: &View, shading: &Shading, progress: &Prog
 struct Scene<'a> {
     assembly: Assembly,
     /// One for each draw.
-    paints: Vec<Paint>,
+    coats: Vec<Coat>,
     fragments: FragmentStage<'a>,
     samples: Samples,
 }
@@ -139,7 +139,7 @@ impl Scene<'_> {
         let Some(interpolation) = Interpolation::new(triangle, &coverage, &self.assembly.corners) else {
             return;
         };
-        let Some(paint) = self.paints.get(triangle.draw as usize) else {
+        let Some(coat) = self.coats.get(triangle.draw as usize) else {
             return;
         };
         // Quads start at even pixels.
@@ -151,7 +151,7 @@ impl Scene<'_> {
                 }
                 let visible = target.depth_test(&coverage, covered, x, y);
                 if visible != 0 {
-                    self.shade_quad(triangle.front, paint, &interpolation, visible, (x, y), target);
+                    self.shade_quad(triangle.front, coat, &interpolation, visible, (x, y), target);
                 }
             }
         }
@@ -161,17 +161,18 @@ impl Scene<'_> {
     fn shade_quad(
         &self,
         front: bool,
-        paint: &Paint,
+        coat: &Coat,
         interpolation: &Interpolation<'_>,
         visible: u16,
         (x, y): (i32, i32),
         target: &mut Target,
     ) {
         let cyclic = self.fragments.shading.cyclic;
-        let chosen = match paint {
+        let chosen = match coat.paint {
             Paint::Table(_) if cyclic == Cyclic::Cyclic => interpolation.chosen_kappa(front, x, y),
             _ => [0.0; 4],
         };
+        let inks = coat.print.as_ref().map_or([Vec3::ONE; 4], |print| interpolation.inks(print, x, y));
         let count = self.samples.count();
         for (lane, (right, down)) in QUAD.iter().enumerate() {
             let mask = visible >> (lane * count) & ((1 << count) - 1);
@@ -181,7 +182,7 @@ impl Scene<'_> {
             let (x, y) = (x + *right as i32, y + *down as i32);
             let at = interpolation.at(x, y);
             let kappa = if cyclic == Cyclic::Naive { pair_of(at.kappa, front).x } else { chosen[lane] };
-            target.write(x, y, mask, self.fragments.colour(paint, front, &at, kappa));
+            target.write(x, y, mask, self.fragments.colour(&coat.paint, front, &at, kappa) * inks[lane]);
         }
     }
 }

@@ -1,9 +1,10 @@
 //! Quads of 2x2 pixels: interpolation at the pixels' centres, and derivatives across them.
 
-use glam::{Vec2, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 
 use super::raster::{Coverage, QUAD, WindowTriangle};
 use super::vertex::{Corner, Varyings};
+use crate::render::LaidPrint;
 use crate::render::shade::cyclic_choice;
 
 /// The corners of a triangle and how much each counts at a pixel.
@@ -54,6 +55,14 @@ impl<'a> Interpolation<'a> {
         let [a, b, c] = self.shares(x, y);
         let [i, j, k] = self.corners.map(|corner| pair_of(corner.kappa, front));
         i * a + j * b + k * c
+    }
+
+    /// What `print` multiplies the colour by at the four pixels of a quad, as [`Interpolation::chosen_kappa`] has them.
+    pub(super) fn inks(&self, print: &LaidPrint, x: i32, y: i32) -> [Vec3; 4] {
+        let uvs = QUAD.map(|(right, down)| self.at(x + right as i32, y + down as i32).uv);
+        let across = [uvs[1] - uvs[0], uvs[3] - uvs[2]];
+        let down = [uvs[2] - uvs[0], uvs[3] - uvs[1]];
+        std::array::from_fn(|lane| print.look_up(uvs[lane], across[lane / 2], down[lane % 2]))
     }
 
     /// The azimuth's coordinate at the four pixels of the quad with the top left pixel `x`, `y`: of each pair the one

@@ -1,19 +1,22 @@
 //! Bind group layouts and samplers: what the shaders see at which number.
 
-use super::mode::LooksUp;
+use super::mode::{LooksUp, ShadingMode};
 
-/// The layouts of group 0 (the view) and group 1 (what a mode looks up), and the samplers.
+/// The layouts of group 0 (the view), group 1 (what a mode looks up) and group 2 (a print), and the samplers.
 #[derive(Debug, Clone)]
 pub(super) struct Bindings {
     pub(super) view: wgpu::BindGroupLayout,
     pub(super) table: wgpu::BindGroupLayout,
     pub(super) ball: wgpu::BindGroupLayout,
+    pub(super) print: wgpu::BindGroupLayout,
     pub(super) table_sampler: wgpu::Sampler,
     pub(super) ball_sampler: wgpu::Sampler,
+    pub(super) print_sampler: wgpu::Sampler,
 }
 
 impl Bindings {
     pub(super) fn new(device: &wgpu::Device) -> Self {
+        use wgpu::AddressMode::{ClampToEdge, Repeat};
         use wgpu::TextureViewDimension::{D2, D3};
         let sampled = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
         let layout = |label, kinds: &[wgpu::BindingType]| {
@@ -33,21 +36,25 @@ impl Bindings {
             view: layout("view", &[uniform()]),
             table: layout("table", &[uniform(), texture(D3), sampled]),
             ball: layout("ball", &[texture(D2), sampled]),
-            table_sampler: sampler(device, wgpu::AddressMode::Repeat),
-            ball_sampler: sampler(device, wgpu::AddressMode::ClampToEdge),
+            print: layout("print", &[uniform(), texture(D2), sampled]),
+            table_sampler: sampler(device, ClampToEdge, Repeat),
+            ball_sampler: sampler(device, ClampToEdge, ClampToEdge),
+            print_sampler: sampler(device, Repeat, ClampToEdge),
         }
     }
 
-    /// The layouts of a pipeline of a mode that looks up `what`.
-    pub(super) fn pipeline_layout(&self, device: &wgpu::Device, what: LooksUp) -> wgpu::PipelineLayout {
-        let layouts: &[_] = match what {
-            LooksUp::Nothing => &[Some(&self.view)],
-            LooksUp::Table => &[Some(&self.view), Some(&self.table)],
-            LooksUp::Ball => &[Some(&self.view), Some(&self.ball)],
+    /// The layouts of a pipeline of a mode.
+    pub(super) fn pipeline_layout(&self, device: &wgpu::Device, mode: ShadingMode) -> wgpu::PipelineLayout {
+        let looked_up = match mode.looks_up {
+            LooksUp::Nothing => None,
+            LooksUp::Table => Some(&self.table),
+            LooksUp::Ball => Some(&self.ball),
         };
+        let layouts = [Some(&self.view), looked_up, mode.is_printed.then_some(&self.print)];
+        let used = layouts.iter().rposition(Option::is_some).map_or(0, |last| last + 1);
         device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("shading"),
-            bind_group_layouts: layouts,
+            bind_group_layouts: &layouts[..used],
             immediate_size: 0,
         })
     }
@@ -80,10 +87,16 @@ fn texture(view_dimension: wgpu::TextureViewDimension) -> wgpu::BindingType {
     wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false }
 }
 
-/// Linear, clamped in u and v.
-fn sampler(device: &wgpu::Device, address_mode_w: wgpu::AddressMode) -> wgpu::Sampler {
+/// Linear within a level; what is beyond the texture in u and v, and in w.
+fn sampler(
+    device: &wgpu::Device,
+    beyond: wgpu::AddressMode,
+    address_mode_w: wgpu::AddressMode,
+) -> wgpu::Sampler {
     device.create_sampler(&wgpu::SamplerDescriptor {
         label: Some("look-up"),
+        address_mode_u: beyond,
+        address_mode_v: beyond,
         address_mode_w,
         mag_filter: wgpu::FilterMode::Linear,
         min_filter: wgpu::FilterMode::Linear,

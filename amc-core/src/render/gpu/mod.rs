@@ -14,6 +14,7 @@ mod mesh;
 mod mode;
 mod offscreen;
 mod pipeline;
+mod print;
 mod scene;
 mod uniforms;
 

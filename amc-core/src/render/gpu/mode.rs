@@ -22,24 +22,32 @@ pub struct ShadingMode {
     pub text: Option<&'static str>,
     /// What it reads at group 1.
     pub looks_up: LooksUp,
+    /// Whether it reads a print at group 2 (`print.wgsl`).
+    pub is_printed: bool,
 }
 
 const AMC: ShadingMode = built_in("mode_amc", LooksUp::Table);
 const BALL: ShadingMode = built_in("mode_ball", LooksUp::Ball);
+const PRINTED_AMC: ShadingMode = printed("mode_amc_printed", LooksUp::Table);
+const PRINTED_BALL: ShadingMode = printed("mode_ball_printed", LooksUp::Ball);
 const PLAIN: ShadingMode = built_in("mode_plain", LooksUp::Nothing);
 const NORMALS: ShadingMode = built_in("mode_normals", LooksUp::Nothing);
 const TANGENTS: ShadingMode = built_in("mode_tangents", LooksUp::Nothing);
 const UV: ShadingMode = built_in("mode_uv", LooksUp::Nothing);
 
 const fn built_in(shader: &'static str, looks_up: LooksUp) -> ShadingMode {
-    ShadingMode { shader, text: None, looks_up }
+    ShadingMode { shader, text: None, looks_up, is_printed: false }
+}
+
+const fn printed(shader: &'static str, looks_up: LooksUp) -> ShadingMode {
+    ShadingMode { is_printed: true, ..built_in(shader, looks_up) }
 }
 
 /// Not a shading of cloth: panels as marks ([`super::Renderer::mark_data`]).
 pub(super) const MARK: ShadingMode = built_in("mark", LooksUp::Nothing);
 
 /// All shadings of cloth.
-pub static MODES: &[ShadingMode] = &[AMC, BALL, PLAIN, NORMALS, TANGENTS, UV];
+pub static MODES: &[ShadingMode] = &[AMC, BALL, PRINTED_AMC, PRINTED_BALL, PLAIN, NORMALS, TANGENTS, UV];
 
 impl ShadingMode {
     /// How `cloth` is drawn in `mode`: parts without a fabric stay grey where fabrics are shown.
@@ -53,9 +61,12 @@ impl ShadingMode {
                 shader: own.name,
                 text: Some(own.text),
                 looks_up: if own.reads_fabric { LooksUp::Table } else { LooksUp::Nothing },
+                is_printed: false,
             },
             (Mode::Amc | Mode::Isotropic | Mode::MatCap(_), Cloth::Plain) => PLAIN,
             (Mode::Amc, Cloth::Fabric(_)) => AMC,
+            (Mode::Amc, Cloth::Printed(..)) => PRINTED_AMC,
+            (Mode::Isotropic | Mode::MatCap(_), Cloth::Printed(..)) => PRINTED_BALL,
             (Mode::Isotropic | Mode::MatCap(_), Cloth::Fabric(_)) => BALL,
         }
     }

@@ -152,7 +152,7 @@ fn create(
         wgpu::ColorTargetState { format: key.target.color, blend: None, write_mask: wgpu::ColorWrites::ALL };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(key.mode.shader),
-        layout: Some(&bindings.pipeline_layout(device, key.mode.looks_up)),
+        layout: Some(&bindings.pipeline_layout(device, key.mode)),
         vertex: wgpu::VertexState {
             module: &module.module,
             entry_point: Some("vertex_main"),

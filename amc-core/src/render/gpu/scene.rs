@@ -9,10 +9,11 @@ use super::fabric::FabricTexture;
 use super::mesh::MeshBuffers;
 use super::mode::{LooksUp, MARK, ShadingMode};
 use super::pipeline::{PipelineKey, Pipelines, TargetFormat};
+use super::print::Prints;
 use super::uniforms::{ViewUniforms, buffer};
 use crate::amc::Amc;
 use crate::image::Picture;
-use crate::render::{Cloth, Cyclic, Draw, Drawing, Mode, Perspective, Projection, Shading, View};
+use crate::render::{Cyclic, Draw, Drawing, Mode, Perspective, Projection, Shading, View};
 use crate::shader::Sources;
 use crate::view_space::Azimuth;
 use crate::{Error, Result};
@@ -45,6 +46,7 @@ pub struct Scene {
     /// Those of the panels that are shown, merged.
     draws: Vec<Draw>,
     fabrics: Vec<SceneFabric>,
+    prints: Prints,
 }
 
 /// A fabric of a scene.
@@ -68,6 +70,7 @@ pub struct SceneDrawData {
 struct ReadyDraw {
     pipeline: wgpu::RenderPipeline,
     looked_up: Option<wgpu::BindGroup>,
+    print: Option<wgpu::BindGroup>,
     corners: Range<u32>,
 }
 
@@ -100,6 +103,7 @@ impl Renderer {
             panels: drawing.draws.clone(),
             draws: merged(drawing.draws.iter()),
             fabrics,
+            prints: self.prints(drawing, &Prints::default())?,
         })
     }
 
@@ -112,8 +116,8 @@ impl Renderer {
             return self.prepare(drawing);
         }
         let mesh = scene.mesh.with_own_tangents(&self.device, &self.queue)?;
-        let (panels, draws, fabrics) = (Vec::new(), Vec::new(), scene.fabrics.clone());
-        let mut beside = Scene { mesh, panels, draws, fabrics };
+        let (fabrics, prints) = (scene.fabrics.clone(), scene.prints.clone());
+        let mut beside = Scene { mesh, panels: Vec::new(), draws: Vec::new(), fabrics, prints };
         self.update(&mut beside, drawing)?;
         Ok(beside)
     }
@@ -134,13 +138,14 @@ impl Renderer {
         let known = |amc: &Arc<Amc>| scene.fabrics.iter().find(|it| Arc::ptr_eq(&it.amc, amc)).cloned();
         let fabric = |amc| known(amc).map_or_else(|| self.fabric(amc), Ok);
         let fabrics = drawing.fabrics.iter().map(fabric).collect::<Result<_>>()?;
+        let prints = self.prints(drawing, &scene.prints)?;
         let bytes = if has_its_shape {
             scene.mesh.set_tangents(&self.queue, &drawing.tangents)
         } else {
             scene.mesh = MeshBuffers::new(&self.device, &self.queue, drawing)?;
             scene.mesh.bytes()
         };
-        scene.fabrics = fabrics;
+        (scene.fabrics, scene.prints) = (fabrics, prints);
         scene.panels.clone_from(&drawing.draws);
         scene.draws = merged(drawing.draws.iter());
         Ok(bytes)
@@ -174,15 +179,14 @@ impl Renderer {
         let mut draws = Vec::with_capacity(scene.draws.len());
         for draw in &scene.draws {
             let mode = ShadingMode::of(&shading.mode, &draw.cloth);
-            let fabric = match draw.cloth {
-                Cloth::Fabric(index) => scene.fabrics.get_mut(index),
-                Cloth::Plain => None,
-            };
+            let fabric = draw.cloth.fabric().and_then(|index| scene.fabrics.get_mut(index));
+            let print = draw.cloth.print().filter(|_| mode.is_printed);
             let azimuth = fabric.as_ref().map_or(Azimuth::default(), |fabric| fabric.texture.azimuth());
             let key = key(mode, azimuth, view, shading, target);
             draws.push(ReadyDraw {
                 pipeline: self.pipelines.get(&self.device, &self.bindings, key)?,
                 looked_up: self.looked_up(mode, shading, fabric)?,
+                print: print.and_then(|laid| scene.prints.bind_group(laid)),
                 corners: corners(draw),
             });
         }
@@ -214,7 +218,7 @@ impl Renderer {
                 target,
             };
             let pipeline = self.pipelines.get(&self.device, &self.bindings, key)?;
-            draws.push(ReadyDraw { pipeline, looked_up: None, corners: corners(draw) });
+            draws.push(ReadyDraw { pipeline, looked_up: None, print: None, corners: corners(draw) });
         }
         Ok(SceneDrawData { mesh: scene.mesh.clone(), eye: eye.bind_group.clone(), draws })
     }
@@ -222,6 +226,10 @@ impl Renderer {
     fn fabric(&self, amc: &Arc<Amc>) -> Result<SceneFabric> {
         let texture = FabricTexture::new(&self.device, &self.queue, &self.bindings, amc)?;
         Ok(SceneFabric { amc: Arc::clone(amc), texture, mean: None })
+    }
+
+    fn prints(&self, drawing: &Drawing, known: &Prints) -> Result<Prints> {
+        Prints::new(&self.device, &self.queue, &self.bindings, &drawing.draws, known)
     }
 
     fn looked_up(
@@ -289,6 +297,9 @@ impl SceneDrawData {
             pass.set_pipeline(&draw.pipeline);
             if let Some(looked_up) = &draw.looked_up {
                 pass.set_bind_group(1, looked_up, &[]);
+            }
+            if let Some(print) = &draw.print {
+                pass.set_bind_group(2, print, &[]);
             }
             pass.draw_indexed(draw.corners.clone(), 0, 0..1);
         }

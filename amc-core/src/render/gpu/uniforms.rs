@@ -1,9 +1,9 @@
 //! What the shaders read from uniform buffers. A test holds the layouts against the WGSL.
 
-use glam::Mat4;
+use glam::{Mat4, Vec4};
 
 use crate::amc::Amc;
-use crate::render::{Shading, View};
+use crate::render::{LaidPrint, Shading, View};
 
 /// `View` of `view.wgsl`.
 #[repr(C)]
@@ -38,6 +38,28 @@ pub(super) struct FabricUniforms {
 impl FabricUniforms {
     pub(super) fn new(amc: &Amc) -> Self {
         Self { symmetry: amc.symmetry.order() as f32, slices: amc.size().slices() as f32, padding: [0.0; 2] }
+    }
+}
+
+/// `Print` of `print.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+pub(super) struct PrintUniforms {
+    pub(super) across: Vec4,
+    pub(super) down: Vec4,
+    pub(super) picture: Vec4,
+}
+
+impl PrintUniforms {
+    pub(super) fn new(laid: &LaidPrint) -> Self {
+        let [u, v, shift] = laid.uv_to_picture.to_cols_array_2d();
+        let repeated = if laid.is_repeated { 1.0 } else { 0.0 };
+        let last_level = (laid.print.levels().len() - 1) as f32;
+        Self {
+            across: Vec4::new(u[0], v[0], shift[0], 0.0),
+            down: Vec4::new(u[1], v[1], shift[1], 0.0),
+            picture: laid.print.size().extend(last_level).extend(repeated),
+        }
     }
 }
 
@@ -86,5 +108,6 @@ mod tests {
         view.1.pop();
         assert_eq!(layout("view", "View"), view);
         assert_eq!(layout("table", "Fabric"), rust_layout!(FabricUniforms, symmetry, slices, padding));
+        assert_eq!(layout("print", "Print"), rust_layout!(PrintUniforms, across, down, picture));
     }
 }

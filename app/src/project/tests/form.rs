@@ -36,6 +36,7 @@ fn people_can_read_what_is_written() {
     assert_eq!(value["fabrics"][2]["asset"]["path"], "../library/tweed.amc.ktx2");
     assert_eq!(value["panels"]["panel-1"]["direction"]["angle_deg"], 90.0);
     assert_eq!(value["panels"]["panel-1"]["fabric"], Value::Null);
+    assert_eq!(value["panels"]["panel-2"]["print"]["picture"]["path"], "prints/roses.png");
     assert!(value["panels"]["panel-0"].get("fabric").is_none(), "as by default");
 }
 

@@ -13,9 +13,10 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::SystemTime;
 
 use amc_core::direction::{Direction, Field, Source};
+use amc_core::render::Laying;
 use amc_core::{Error, Result};
-use glam::Vec3;
-use studio_plugin::document::{Angles, Asset, FabricId, FabricInUse, PanelChoice, Project};
+use glam::{Vec2, Vec3};
+use studio_plugin::document::{Angles, Asset, FabricId, FabricInUse, PanelChoice, PanelPrint, Project};
 
 use super::{Disk, System};
 
@@ -36,7 +37,12 @@ fn rich(folder: &Path) -> Project {
     ];
     for (k, direction) in directions.into_iter().enumerate() {
         let fabric = [None, Some(None), Some(Some(FabricId::new(9)))][k];
-        project.panels.insert(format!("panel-{k}"), PanelChoice { fabric, direction, visible: k != 1 });
+        let print = (k == 2).then(|| PanelPrint {
+            picture: Asset::file(folder.join("prints/roses.png")),
+            laying: Laying { width: 0.15, turn: 0.3, shift: Vec2::new(0.01, -0.02), is_repeated: false },
+        });
+        let choice = PanelChoice { fabric, direction, print, visible: k != 1 };
+        project.panels.insert(format!("panel-{k}"), choice);
     }
     project.view.set_angles(Angles { yaw: 12.3, pitch: -45.6, roll: 78.9 });
     project.view.zoom = 1.7;
@@ -47,7 +53,7 @@ fn rich(folder: &Path) -> Project {
 /// Writes the files that [`rich`] names.
 fn write_files(folder: &Path) {
     let around = folder.parent().unwrap();
-    for path in ["coat.glb", "fabrics/silk.amc.ktx2"].map(|name| folder.join(name)) {
+    for path in ["coat.glb", "fabrics/silk.amc.ktx2", "prints/roses.png"].map(|name| folder.join(name)) {
         put(&path, path.to_str().unwrap());
     }
     put(&around.join("library/tweed.amc.ktx2"), "tweed");

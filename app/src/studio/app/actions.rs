@@ -9,6 +9,10 @@ use crate::studio::files::Purpose;
 use crate::studio::settings::{SCALES, Theme};
 use crate::studio::welcome::{Chosen, Step};
 
+/// With the command key these select all, copy, cut, paste, undo and redo in a text that is being edited.
+const OF_TEXTS: [egui::Key; 6] =
+    [egui::Key::A, egui::Key::C, egui::Key::V, egui::Key::X, egui::Key::Y, egui::Key::Z];
+
 impl App {
     pub(super) fn run(&mut self, wanted: Wanted, ui: &egui::Ui) {
         match wanted {
@@ -133,11 +137,12 @@ impl App {
         if self.settings_page.is_listening() || ui.memory(|memory| memory.top_modal_layer().is_some()) {
             return None;
         }
-        let typing = ui.egui_wants_keyboard_input();
+        let (focused, in_text) = (ui.egui_wants_keyboard_input(), ui.text_edit_focused());
         let fires = |shortcut: &egui::KeyboardShortcut| {
-            // Letters alone are for whoever is typing.
+            // Letters alone are for whoever has the keyboard, and a text is edited by its own keys.
             let plain = !shortcut.modifiers.command && !shortcut.modifiers.alt;
-            !(typing && plain) && ui.input_mut(|input| input.consume_shortcut(shortcut))
+            let edits_text = in_text && OF_TEXTS.contains(&shortcut.logical_key);
+            !(focused && plain) && !edits_text && ui.input_mut(|input| input.consume_shortcut(shortcut))
         };
         // Those with more modifiers first: what is pressed with Shift is not what is pressed without.
         let mut with_keys: Vec<_> =

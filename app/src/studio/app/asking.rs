@@ -27,11 +27,13 @@ impl App {
             (Ok(Some(path)), Purpose::Open) => self.open(&path),
             (Ok(Some(path)), Purpose::Save) => self.save_to(&path),
             (Ok(Some(path)), Purpose::Find(old)) => self.desk.locate(&old, &path, &mut self.notices),
-            (Ok(Some(path)), Purpose::Where(plugin, ask)) => self.with_context(|registry, studio| {
-                if let Some(plugin) = registry.get_mut(plugin) {
-                    plugin.call(studio, |plugin, studio| plugin.chosen(ask.id, &path, studio));
-                }
-            }),
+            (Ok(Some(path)), Purpose::Where(plugin, ask) | Purpose::Which(plugin, ask)) => {
+                self.with_context(|registry, studio| {
+                    if let Some(plugin) = registry.get_mut(plugin) {
+                        plugin.call(studio, |plugin, studio| plugin.chosen(ask.id, &path, studio));
+                    }
+                })
+            }
             (Ok(None), _) => {}
             (Err(error), _) => self.notices.failed(error),
         }

@@ -7,6 +7,7 @@ use studio_plugin::document::{Edit, Gesture};
 use studio_plugin::{Command, Context, Pane, Place, Plugin};
 
 use super::panels::flags;
+use super::picked;
 use crate::studio::texts::{NO_FABRIC, OPENING, inspector as texts};
 use crate::studio::theme::STEP;
 
@@ -117,15 +118,6 @@ fn unit(ui: &mut egui::Ui, studio: &mut Context<'_>) {
     if unit != project.unit {
         studio.submit(Edit::SetUnit(unit));
     }
-}
-
-/// The selected panels; where none is, all that take a fabric.
-fn picked<'a>(garment: &'a Garment, studio: &Context<'_>) -> Vec<&'a Panel> {
-    let selected = &studio.selection.panels;
-    let picked = |panel: &&Panel| {
-        if selected.is_empty() { panel.takes_fabric } else { selected.contains(&panel.id) }
-    };
-    garment.panels.iter().filter(picked).collect()
 }
 
 fn direction(panel: &Panel, studio: &Context<'_>) -> Direction {

@@ -8,17 +8,29 @@ mod inspector;
 mod look;
 mod notes;
 mod panels;
+mod print;
 
-use studio_plugin::Registry;
+use amc_core::mesh::{Garment, Panel};
+use studio_plugin::{Context, Registry};
 
 /// Registers them, in the order of their tabs.
 pub(super) fn register(registry: &mut Registry) {
     registry.register(panels::Panels::default());
     registry.register(fabrics::Fabrics::default());
     registry.register(inspector::Inspector::default());
+    registry.register(print::Prints::default());
     registry.register(look::Look);
     registry.register(export::Export::default());
     registry.register(history::History);
     registry.register(notes::Notes::default());
     registry.register(activity::Activity);
+}
+
+/// The selected panels; where none is, all that take a fabric.
+fn picked<'a>(garment: &'a Garment, studio: &Context<'_>) -> Vec<&'a Panel> {
+    let selected = &studio.selection.panels;
+    let picked = |panel: &&Panel| {
+        if selected.is_empty() { panel.takes_fabric } else { selected.contains(&panel.id) }
+    };
+    garment.panels.iter().filter(picked).collect()
 }

@@ -15,6 +15,7 @@ pub(crate) mod look;
 pub(crate) mod notes;
 pub(crate) mod notices;
 pub(crate) mod panels;
+pub(crate) mod print;
 pub(crate) mod settings;
 pub(crate) mod welcome;
 

@@ -81,6 +81,17 @@ impl Asset {
         self.check("fabric", &[FABRIC])
     }
 
+    /// Whether it can be a picture: a file.
+    ///
+    /// # Errors
+    /// It cannot; the message says what can.
+    pub fn check_picture(&self) -> Result<()> {
+        match self {
+            Self::Bundled(name) => Err(Error::invalid(format!("'{name}' is no picture: that is a file"))),
+            Self::File { .. } => self.check("picture", &[]),
+        }
+    }
+
     fn check(&self, what: &str, prefixes: &[&str]) -> Result<()> {
         match self {
             Self::Bundled(name) => {

@@ -5,10 +5,11 @@ use std::path::PathBuf;
 
 use amc_core::direction::Direction;
 use amc_core::mesh::Unit;
+use amc_core::render::Laying;
 use amc_core::{Error, Result};
 use serde_json::Value;
 
-use super::{Asset, FabricId, FabricInUse, PanelChoice, Project};
+use super::{Asset, FabricId, FabricInUse, PanelChoice, PanelPrint, Project};
 
 /// One change of a project. Panels are named by their ids.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,6 +49,20 @@ pub enum Edit {
         panels: Vec<String>,
         /// Drawn, or hidden.
         visible: bool,
+    },
+    /// The panels' print.
+    SetPrint {
+        /// The panels.
+        panels: Vec<String>,
+        /// None: the fabric alone.
+        print: Option<PanelPrint>,
+    },
+    /// How the panels' prints lie on the cloth. Panels without one stay without.
+    LayPrint {
+        /// The panels.
+        panels: Vec<String>,
+        /// The same for all.
+        laying: Laying,
     },
     /// The notes, whole.
     SetNotes(String),
@@ -95,6 +110,14 @@ impl Edit {
             Self::SetVisible { panels, visible } => {
                 choose(project, panels, |choice| choice.visible = visible)
             }
+            Self::SetPrint { panels, print } => {
+                choose(project, panels, |choice| choice.print.clone_from(&print));
+            }
+            Self::LayPrint { panels, laying } => choose(project, panels, |choice| {
+                if let Some(print) = &mut choice.print {
+                    print.laying = laying;
+                }
+            }),
             Self::SetNotes(notes) => project.notes = notes,
             Self::SetPluginState { plugin, state: Value::Null, .. } => {
                 project.plugins.remove(&plugin);

@@ -29,6 +29,11 @@ impl Edit {
             Self::TurnDirection { panels, by } => turn_name(panels.len(), *by),
             Self::SetVisible { panels, visible: true } => format!("Show {}", counted(panels.len())),
             Self::SetVisible { panels, visible: false } => format!("Hide {}", counted(panels.len())),
+            Self::SetPrint { panels, print: Some(print) } => {
+                format!("Print {} on {}", print.picture.name(), counted(panels.len()))
+            }
+            Self::SetPrint { panels, print: None } => format!("Take the print off {}", counted(panels.len())),
+            Self::LayPrint { panels, .. } => format!("Move the print of {}", counted(panels.len())),
             Self::SetNotes(_) => "Edit the notes".to_owned(),
             Self::SetPluginState { what, .. } => what.clone(),
             Self::Relocate { old, .. } => format!("Locate {}", Asset::file(old.as_path()).name()),

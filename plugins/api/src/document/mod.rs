@@ -8,6 +8,7 @@ mod comparison;
 mod edit;
 mod edit_name;
 mod history;
+mod panel_print;
 mod project;
 #[cfg(test)]
 mod tests;
@@ -17,5 +18,6 @@ pub use asset::{Asset, FabricId, FabricInUse};
 pub use comparison::Comparison;
 pub use edit::Edit;
 pub use history::{Document, Gesture, Snapshot};
+pub use panel_print::PanelPrint;
 pub use project::{PanelChoice, PanelLook, Project};
 pub use view::{Angles, Lens, NamedView, TurningStyle, ViewSettings};

@@ -8,7 +8,7 @@ use amc_core::{Error, Result};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::{Asset, FabricId, FabricInUse, ViewSettings};
+use super::{Asset, FabricId, FabricInUse, PanelPrint, ViewSettings};
 
 /// What the person works on.
 ///
@@ -40,13 +40,15 @@ pub struct PanelChoice {
     pub fabric: Option<Option<FabricId>>,
     /// Its direction; none: along its grain.
     pub direction: Option<Direction>,
+    /// The print over its fabric.
+    pub print: Option<PanelPrint>,
     /// Whether it is drawn.
     pub visible: bool,
 }
 
 impl Default for PanelChoice {
     fn default() -> Self {
-        Self { fabric: None, direction: None, visible: true }
+        Self { fabric: None, direction: None, print: None, visible: true }
     }
 }
 
@@ -126,6 +128,11 @@ impl Project {
         }
     }
 
+    /// The print on the panel of this id.
+    pub fn print(&self, panel: &str) -> Option<&PanelPrint> {
+        self.panels.get(panel)?.print.as_ref()
+    }
+
     /// The fabric of this id.
     pub fn fabric(&self, id: FabricId) -> Option<&FabricInUse> {
         self.fabrics.iter().find(|fabric| fabric.id == id)
@@ -140,14 +147,20 @@ impl Project {
         FabricId::new(above.or_else(gap).unwrap_or_default())
     }
 
-    /// Every asset: the garment, then the fabrics'.
+    /// Every asset: the garment, then the fabrics', then the prints' (one that is on several panels is there as often).
     pub fn assets(&self) -> impl Iterator<Item = &Asset> {
-        std::iter::once(&self.garment).chain(self.fabrics.iter().map(|fabric| &fabric.asset))
+        let prints = self.panels.values().filter_map(|choice| choice.print.as_ref());
+        std::iter::once(&self.garment)
+            .chain(self.fabrics.iter().map(|fabric| &fabric.asset))
+            .chain(prints.map(|print| &print.picture))
     }
 
     /// Every asset, to be replaced.
     pub fn assets_mut(&mut self) -> impl Iterator<Item = &mut Asset> {
-        std::iter::once(&mut self.garment).chain(self.fabrics.iter_mut().map(|fabric| &mut fabric.asset))
+        let prints = self.panels.values_mut().filter_map(|choice| choice.print.as_mut());
+        std::iter::once(&mut self.garment)
+            .chain(self.fabrics.iter_mut().map(|fabric| &mut fabric.asset))
+            .chain(prints.map(|print| &mut print.picture))
     }
 
     /// Checks what must be true of every project: assets that can be what they are used as, fabrics with names and ids of
@@ -222,6 +235,7 @@ impl Project {
             if choice.direction.is_some_and(|direction| !is_finite(direction)) {
                 return Err(place(Error::invalid("its direction is not a finite number")));
             }
+            choice.print.as_ref().map_or(Ok(()), PanelPrint::check).map_err(place)?;
         }
         Ok(())
     }

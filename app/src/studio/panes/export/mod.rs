@@ -16,7 +16,7 @@ use studio_plugin::{Ask, Command, Context, FileKind, Job, Pane, Place, Plugin};
 
 use self::settings::{Settings, What};
 use crate::pictures::{Device, MOVING_SUFFIXES, Order, Painter, STILL_SUFFIXES, Stand};
-use crate::scene::{document_looks, dressed, hidden_panels, vertex_occlusion};
+use crate::scene::{Outfit, document_looks, dressed, hidden_panels, vertex_occlusion, worn_prints};
 use crate::studio::texts::export as texts;
 
 /// The export's form, and what is being exported.
@@ -153,7 +153,7 @@ impl Export {
             return studio.notices.failed(texts::NO_GARMENT);
         };
         let project = studio.document.project().clone();
-        let fabrics = studio.stage.fabrics.clone();
+        let (fabrics, prints) = (studio.stage.fabrics.clone(), studio.stage.prints.clone());
         let is_worn = |fabric: &FabricInUse| {
             garment.panels.iter().any(|panel| project.look_of(panel).fabric == Some(fabric.id))
         };
@@ -176,10 +176,11 @@ impl Export {
         let job = studio.jobs.start(name.clone(), move |progress| {
             let order = order(stand(&project, &garment)?);
             let looks = document_looks(&project, &garment, |id| fabrics.contains_key(&id));
+            let outfit = Outfit { looks, prints: worn_prints(&project, &garment, &prints), fabrics };
             let occlusion = occlusion(&garment, &order.shading, progress)?;
             let upright = garment.normals.clone();
             let plain = Drawing::new(&garment, upright, occlusion.as_deref(), Vec::new(), |_| Cloth::Plain)?;
-            let drawing = dressed(&plain, &garment, &looks, &fabrics)?;
+            let drawing = dressed(&plain, &garment, &outfit)?;
             let mut painter = Painter::new(device, drawing, &hidden_panels(&project, &garment))?;
             order.carry_out(&mut painter, progress)
         });

@@ -2,8 +2,9 @@
 //! it does to a handful of panels.
 
 use amc_core::mesh::Unit;
+use amc_core::render::Laying;
 
-use super::super::{Asset, Document, Edit, FabricId, Gesture, Project};
+use super::super::{Asset, Document, Edit, FabricId, Gesture, PanelPrint, Project};
 use super::{at, fabric, turn};
 
 const COMMANDS: usize = 10_000;
@@ -32,8 +33,8 @@ struct Plain {
     garment: String,
     unit: Unit,
     fabrics: Vec<u32>,
-    /// Per panel: chosen fabric (-2 default, -1 grey), angle, visible.
-    panels: [(i64, Option<f32>, bool); PANELS.len()],
+    /// Per panel: chosen fabric (-2 default, -1 grey), angle, visible, width of the print.
+    panels: [(i64, Option<f32>, bool, Option<f32>); PANELS.len()],
     notes: String,
     /// What a plugin keeps.
     kept: Option<usize>,
@@ -41,7 +42,7 @@ struct Plain {
 
 impl Plain {
     fn new() -> Self {
-        let panels = [(-2, None, true); PANELS.len()];
+        let panels = [(-2, None, true, None); PANELS.len()];
         Self {
             garment: "garment:shirt".to_owned(),
             unit: Unit::Metre,
@@ -59,10 +60,12 @@ impl Plain {
             -1 => None,
             id => Some(id as u32),
         };
-        let looks = PANELS.iter().zip(&self.panels).all(|(name, &(chosen, angle, visible))| {
+        let looks = PANELS.iter().zip(&self.panels).all(|(name, &(chosen, angle, visible, print))| {
             let look = project.look(name);
+            let printed = project.print(name).map(|print| print.laying.width);
             let is_turned = look.direction.map(|direction| direction.angle);
-            look.fabric.map(FabricId::number) == worn(chosen) && is_turned == angle && look.visible == visible
+            look.fabric.map(FabricId::number) == worn(chosen)
+                && (is_turned, look.visible, printed) == (angle, visible, print)
         });
         looks
             && fabrics == self.fabrics
@@ -78,7 +81,7 @@ impl Plain {
         let mut after = self.clone();
         let chosen: Vec<usize> = (0..PANELS.len()).filter(|_| random.chance(2)).collect();
         let names: Vec<String> = chosen.iter().map(|&k| PANELS[k].to_owned()).collect();
-        let edit = match random.below(10) {
+        let edit = match random.below(12) {
             0 => {
                 after.unit = Unit::Metre;
                 after.garment = ["garment:shirt", "shape:sheet", "garment:scarf"][random.below(3)].to_owned();
@@ -143,6 +146,24 @@ impl Plain {
             7 => {
                 after.notes = "lore ".repeat(random.below(4));
                 Edit::SetNotes(after.notes.clone())
+            }
+            9 => {
+                let width = [None, Some(0.25), Some(200.0)][random.below(3)];
+                let laying = Laying { width: width.unwrap_or_default(), ..Laying::default() };
+                let print = width.map(|_| PanelPrint { picture: Asset::file("roses.png"), laying });
+                chosen.iter().for_each(|&k| after.panels[k].3 = width);
+                let edit = Edit::SetPrint { panels: names, print };
+                if width == Some(200.0) && !chosen.is_empty() {
+                    return (edit, None);
+                }
+                edit
+            }
+            10 => {
+                let laying = Laying { width: 0.5, ..Laying::default() };
+                for &k in &chosen {
+                    after.panels[k].3 = after.panels[k].3.map(|_| 0.5);
+                }
+                Edit::LayPrint { panels: names, laying }
             }
             _ => {
                 after.kept = [None, Some(1), Some(2)][random.below(3)];
