@@ -108,6 +108,10 @@ fn project(file: &Path) -> Result<Value> {
             described["angle_deg"] = json!(direction.angle.to_degrees());
             described["source"] = json!(direction.source);
         }
+        if let Some(print) = &choice.print {
+            described["print"] = asset(&print.picture);
+            described["print_width_m"] = json!(print.laying.width);
+        }
         described
     };
     Ok(json!({

@@ -116,6 +116,9 @@ pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
         for notice in &scene.notices {
             output.notice(notice);
         }
+        if let Some(project) = &scene.project {
+            left_out(&project.view, mode.is_some()).iter().for_each(|notice| output.notice(notice));
+        }
         let settings = arguments.settings(scene.project.as_ref().map(|project| &project.view));
         let order = Order {
             kind: kind.clone(),
@@ -166,6 +169,18 @@ fn painter(
     let drawing = drawing(garment, (&looks, &prints), fabrics, shading.occlusion, progress)?;
     let hidden = project.as_ref().map(|project| hidden_panels(project, garment)).unwrap_or_default();
     Painter::new(device.clone(), drawing, &hidden)
+}
+
+/// What of a project's view a picture does not show.
+fn left_out(view: &ViewSettings, has_mode: bool) -> Vec<String> {
+    let mut notices = Vec::new();
+    if !has_mode && ShadingChoice::BUILT_IN.iter().all(|choice| choice.id != view.mode) {
+        notices.push(format!("the shading mode '{}' is a plugin's: cloth is drawn in its place", view.mode));
+    }
+    if view.compared.is_some() {
+        notices.push("the project's view is split: what is left of the divider is drawn".to_owned());
+    }
+    notices
 }
 
 /// The mode that is asked for; none: the project's.
