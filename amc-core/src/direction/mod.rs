@@ -11,7 +11,7 @@ pub(crate) mod tests;
 
 pub use tangents::{Tangents, tangents};
 
-use glam::Vec3;
+use glam::{Mat2, Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::mesh::Panel;
@@ -63,6 +63,26 @@ pub struct Direction {
 }
 
 impl Direction {
+    /// Where the warp runs on the cloth laid flat: a unit vector. `uv_to_metres` takes UVs to metres there
+    /// ([`crate::mesh::Garment::uv_to_metres`]). A procedural field has no one direction: its angle is counted from +u.
+    pub fn on_cloth(&self, uv_to_metres: Mat2) -> Vec2 {
+        let in_uvs = Vec2::from_angle(self.angle);
+        let along = match self.source {
+            Source::Gradient => uv_to_metres.inverse().transpose() * in_uvs,
+            Source::Yarn | Source::Field(_) => uv_to_metres * in_uvs,
+        };
+        along.normalize_or(Vec2::X)
+    }
+
+    /// The direction of this source that runs along `along` on the cloth laid flat: the inverse of [`Direction::on_cloth`].
+    pub fn along_cloth(source: Source, along: Vec2, uv_to_metres: Mat2) -> Self {
+        let in_uvs = match source {
+            Source::Gradient => uv_to_metres.transpose() * along,
+            Source::Yarn | Source::Field(_) => uv_to_metres.inverse() * along,
+        };
+        Self { source, angle: in_uvs.to_angle() }
+    }
+
     /// The direction of a panel that nobody has given one: along its grain, where the file says it, else along +u.
     pub fn along_grain(panel: &Panel) -> Self {
         Self { source: Source::default(), angle: panel.pattern.grain.unwrap_or_default() }

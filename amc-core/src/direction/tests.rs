@@ -1,6 +1,6 @@
 use std::f32::consts::{FRAC_PI_2, PI};
 
-use glam::{Mat2, Quat, Vec2, Vec3};
+use glam::Quat;
 
 use super::*;
 use crate::mesh::{Garment, Mesh, Panel, Part};
@@ -307,4 +307,22 @@ fn what_makes_no_sense_is_refused() {
     assert!(refused(&garment, &one(axis, 0.0)).contains("no length"));
     garment.triangles[3][1] = 49;
     assert!(refused(&garment, &one(Source::Yarn, 0.0)).contains("not there"));
+}
+
+#[test]
+fn a_direction_runs_on_the_cloth_as_it_does_on_the_surface_and_is_found_again() {
+    let scale = Vec2::new(0.02, 0.1);
+    let tilt = Quat::from_rotation_x(0.4);
+    let garment = garment_of(&[flat(tilt, |p| p * scale)]);
+    let metres = garment.uv_to_metres(&garment.panels[0]).unwrap().matrix2;
+    for source in [Source::Gradient, Source::Yarn] {
+        for angle in [0.0, 0.4, FRAC_PI_2, 2.5, -1.2] {
+            let direction = Direction { source, angle };
+            let on_cloth = direction.on_cloth(metres);
+            let on_surface = tangents(&garment, &[direction]).unwrap().vectors[24];
+            assert!((tilt * on_cloth.extend(0.0) - on_surface).length() < 1e-4, "{source:?} {angle}");
+            let again = Direction::along_cloth(source, on_cloth, metres);
+            assert!((again.angle - angle).abs() < 1e-5 && again.source == source);
+        }
+    }
 }

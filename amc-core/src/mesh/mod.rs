@@ -11,6 +11,7 @@ mod draft;
 pub(crate) mod extras;
 mod fabric_words;
 mod flat;
+mod flat_locator;
 mod fold;
 mod forest;
 pub mod gltf;
@@ -22,6 +23,7 @@ mod measure;
 mod mutations;
 mod normals;
 pub mod obj;
+mod outline;
 mod panel;
 mod pattern_piece;
 mod pick;
@@ -35,10 +37,11 @@ mod weld;
 
 pub use cloth_normals::cloth_normals;
 pub use distortion::{Distortion, Percentiles};
+pub use flat_locator::{FlatLocator, SurfacePlace};
 pub(crate) use measure::uv_area;
 pub use panel::{Garment, Panel, PanelFlags};
 pub use pattern_piece::{PatternPiece, Seam};
-pub use pick::Picker;
+pub use pick::{Hit, Picker};
 pub use read::{FILE_LIMIT, Resolve, read, suffixes};
 pub use unit::Unit;
 

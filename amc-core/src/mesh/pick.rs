@@ -24,6 +24,15 @@ pub struct Picker {
     panel_of_triangle: Vec<u32>,
 }
 
+/// What a line of sight meets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Hit {
+    /// The number of the panel.
+    pub panel: usize,
+    /// The triangle's number, counted from panel to panel: that of [`super::Garment::triangles`] in a drawing of a garment.
+    pub triangle: u32,
+}
+
 impl std::fmt::Debug for Picker {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Picker").field("triangles", &self.panel_of_triangle.len()).finish_non_exhaustive()
@@ -51,10 +60,16 @@ impl Picker {
 
     /// The panel that a ray meets first, from either side; those that `hidden` says yes to are not there.
     pub fn first(&self, ray: Ray, hidden: impl Fn(usize) -> bool) -> Option<usize> {
+        self.hit(ray, hidden).map(|hit| hit.panel)
+    }
+
+    /// The triangle that a ray meets first, as [`Picker::first`] finds its panel.
+    pub fn hit(&self, ray: Ray, hidden: impl Fn(usize) -> bool) -> Option<Hit> {
         let tree = self.tree.as_ref()?;
         let panel = |triangle: u32| self.panel_of_triangle[triangle as usize] as usize;
         let origin = self.placement.place(ray.origin);
-        tree.first(origin, ray.direction, |triangle| !hidden(panel(triangle))).map(panel)
+        let triangle = tree.first(origin, ray.direction, |triangle| !hidden(panel(triangle)))?;
+        Some(Hit { panel: panel(triangle), triangle })
     }
 
     /// The panels with a visible pixel in the box between two points of the picture (pixels from its top-left corner):

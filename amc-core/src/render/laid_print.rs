@@ -79,7 +79,8 @@ impl LaidPrint {
     /// screen to the next. Twin of `look_up_print` in `shaders/print.wgsl`.
     pub(super) fn look_up(&self, uv: Vec2, right: Vec2, below: Vec2) -> Vec3 {
         let at = self.uv_to_picture.transform_point2(uv);
-        if !self.is_repeated && !(at.cmpge(Vec2::ZERO).all() && at.cmplt(Vec2::ONE).all()) {
+        let is_inside = at.cmpge(Vec2::ZERO).all() && at.cmplt(Vec2::ONE).all();
+        if !is_inside && !self.is_repeated {
             return Vec3::ONE;
         }
         let [right, below] = [right, below].map(|change| self.uv_to_picture.transform_vector2(change));
@@ -94,12 +95,8 @@ fn upright(panel: &Panel, direction: &Direction, uv_to_metres: Mat2) -> Mat2 {
         Source::Gradient | Source::Yarn => direction.angle,
         Source::Field(_) => grain.unwrap_or_default(),
     };
-    let up_in_uvs = Vec2::from_angle(if grain.is_some() { angle } else { angle + FRAC_PI_2 });
-    let map = match direction.source {
-        Source::Gradient => uv_to_metres.inverse().transpose(),
-        Source::Yarn | Source::Field(_) => uv_to_metres,
-    };
-    let up = (map * up_in_uvs).normalize_or(Vec2::Y);
+    let angle = if grain.is_some() { angle } else { angle + FRAC_PI_2 };
+    let up = Direction { angle, ..*direction }.on_cloth(uv_to_metres);
     Mat2::from_cols(Vec2::new(up.y, up.x), Vec2::new(-up.x, up.y))
 }
 

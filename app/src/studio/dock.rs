@@ -31,9 +31,11 @@ pub(super) fn initial(registry: &Registry) -> Layout {
         }
         ids
     };
-    let [left, right, bottom] = [Place::Left, Place::Right, Place::Bottom].map(&mut at);
-    let viewport = tiles.insert_pane(Pane::Viewport);
-    let mut middle = vec![viewport];
+    let [left, right, beside, bottom] =
+        [Place::Left, Place::Right, Place::Beside, Place::Bottom].map(&mut at);
+    let mut looked_at = vec![tiles.insert_pane(Pane::Viewport)];
+    looked_at.extend(tabs(&mut tiles, beside));
+    let mut middle = vec![shared(&mut tiles, LinearDir::Horizontal, looked_at, &[3.0, 2.0])];
     middle.extend(tabs(&mut tiles, bottom));
     let middle = shared(&mut tiles, LinearDir::Vertical, middle, &[4.0, 1.0]);
     let mut columns = Vec::new();

@@ -258,14 +258,6 @@ fn stripes(file: &Path) {
     amc_core::image::encode::write_png(&picture, file, &[]).unwrap();
 }
 
-/// Brings the pane of prints to the front.
-fn show_prints(harness: &mut Harness<'_, App>) {
-    harness
-        .get_by(|node| node.label().is_some_and(|label| label == "Print") && node.toggled().is_some())
-        .click();
-    settle(harness);
-}
-
 #[test]
 fn a_print_is_dropped_laid_undone_saved_moved_and_opened_again() {
     let folder = tempfile::tempdir().unwrap();
@@ -284,7 +276,7 @@ fn a_print_is_dropped_laid_undone_saved_moved_and_opened_again() {
     let print = harness.state().document().project().print("back").cloned().unwrap();
     assert_eq!(harness.state().document().undo_name(), Some("Print stripes on 1 panel"));
     assert!(harness.state().document().project().print("yoke").is_none());
-    show_prints(&mut harness);
+    show_tab(&mut harness, "Print");
     let printed = picture(&mut harness);
     assert_ne!(printed, selected);
 
@@ -315,7 +307,7 @@ fn a_print_is_dropped_laid_undone_saved_moved_and_opened_again() {
     let found = again.state().document().project().print("back").cloned().unwrap();
     assert_eq!(found.laying, print.laying);
     assert!(found.picture.path().unwrap().starts_with(&moved));
-    show_prints(&mut again);
+    show_tab(&mut again, "Print");
     let before = picture(&mut again);
     click(&mut again, "Take the print off");
     assert!(again.state().document().project().print("back").is_none());

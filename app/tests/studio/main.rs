@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod directions;
 mod export;
 mod journeys;
 mod panes;
@@ -51,6 +52,20 @@ fn press(harness: &mut Harness<'_, App>, modifiers: Modifiers, key: Key) {
 
 fn click(harness: &mut Harness<'_, App>, label: &str) {
     harness.get_by_label(label).click();
+    settle(harness);
+}
+
+/// Brings a pane to the front by its tab.
+fn show_tab(harness: &mut Harness<'_, App>, title: &str) {
+    harness
+        .get_by(|node| node.label().is_some_and(|label| label == title) && node.toggled().is_some())
+        .click();
+    settle(harness);
+}
+
+/// Selects a panel in the list.
+fn select(harness: &mut Harness<'_, App>, panel: &str) {
+    harness.get_by(|node| node.label().is_some_and(|label| label.starts_with(panel))).click();
     settle(harness);
 }
 

@@ -13,6 +13,8 @@ pub enum Place {
     Left,
     /// Beside the viewport, on the right.
     Right,
+    /// Next to the viewport, nearly as large: what is looked at together with the garment.
+    Beside,
     /// Below the viewport.
     Bottom,
 }

@@ -1,4 +1,4 @@
-//! The studio's own panes: plugins like any other. A pane is one file here and one line below.
+//! The studio's own panes: plugins like any other. A pane is one file here and one line below; a plugin of `plugins/` is one line.
 
 mod activity;
 mod export;
@@ -18,6 +18,8 @@ pub(super) fn register(registry: &mut Registry) {
     registry.register(panels::Panels::default());
     registry.register(fabrics::Fabrics::default());
     registry.register(inspector::Inspector::default());
+    #[cfg(feature = "tangent-editor")]
+    registry.register(tangent_editor::TangentEditor::default());
     registry.register(print::Prints::default());
     registry.register(look::Look);
     registry.register(export::Export::default());

@@ -1,0 +1,160 @@
+//! The tangent-field editor, as a designer uses it.
+
+use amc_core::mesh::{self, Garment, Unit};
+use amc_studio::studio::Studio;
+use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+
+use super::*;
+
+fn near(harness: &Harness<'_, App>, panel: &str, expected: f32) {
+    let found = degrees(harness, panel).unwrap_or(f32::NAN);
+    assert!((found - expected).abs() < 0.05, "{panel}: {found}, expected {expected}");
+}
+
+/// Runs a command by typing its name into the palette.
+fn command(harness: &mut Harness<'_, App>, name: &str) {
+    press(harness, Modifiers::COMMAND, Key::P);
+    harness.get_by_label("Type what you want to do").type_text(name);
+    settle(harness);
+    press(harness, Modifiers::NONE, Key::Enter);
+}
+
+fn button(pos: Pos2, pressed: bool) -> Event {
+    Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE }
+}
+
+/// Drags from one point to another, in a few moves.
+fn drag(harness: &mut Harness<'_, App>, from: Pos2, to: Pos2) {
+    harness.event(Event::PointerMoved(from));
+    harness.step();
+    harness.event(button(from, true));
+    for k in 1..=4 {
+        harness.event(Event::PointerMoved(from.lerp(to, k as f32 / 4.0)));
+        harness.step();
+    }
+    harness.event(button(to, false));
+    settle(harness);
+}
+
+#[test]
+fn sleeves_are_turned_by_keys_mirrored_locked_and_undone() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    select(&mut harness, "left sleeve");
+    for _ in 0..3 {
+        press(&mut harness, Modifiers::NONE, Key::CloseBracket);
+    }
+    near(&harness, "left-sleeve", 93.0);
+    press(&mut harness, Modifiers::NONE, Key::M);
+    near(&harness, "right-sleeve", 87.0);
+    press(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert_eq!(degrees(&harness, "right-sleeve"), None);
+
+    // Linked, the partner follows; it is one step.
+    show_tab(&mut harness, "Grain");
+    click(&mut harness, "The mirror partner follows");
+    command(&mut harness, "bias 45");
+    near(&harness, "left-sleeve", 45.0);
+    near(&harness, "right-sleeve", 135.0);
+    press(&mut harness, Modifiers::COMMAND, Key::Z);
+    near(&harness, "left-sleeve", 93.0);
+    assert_eq!(degrees(&harness, "right-sleeve"), None);
+
+    click(&mut harness, "Locked");
+    assert_eq!(harness.state().document().undo_name(), Some("Lock 1 panel"));
+    press(&mut harness, Modifiers::NONE, Key::CloseBracket);
+    near(&harness, "left-sleeve", 93.0);
+    assert!(reads(&harness, &["1 panel is locked"]));
+    while harness.state().document().undo_name().is_some() {
+        press(&mut harness, Modifiers::COMMAND, Key::Z);
+    }
+    assert_eq!(degrees(&harness, "left-sleeve"), None);
+}
+
+#[test]
+fn an_arrow_is_dragged_and_a_sum_is_typed() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    show_tab(&mut harness, "Flat pattern");
+    let tip = harness.get_by_label("Grain of back").rect().center();
+    // The arrow points up; a quarter of the piece's width to the right of its tip is 45 degrees or so.
+    drag(&mut harness, tip, tip + egui::vec2(60.0, 0.0));
+    let turned = degrees(&harness, "back").unwrap();
+    assert!((10.0..80.0).contains(&turned), "{turned}");
+    assert_eq!(harness.state().document().steps().count(), 1, "a drag is one step");
+    let before = picture(&mut harness);
+
+    select(&mut harness, "back");
+    show_tab(&mut harness, "Grain");
+    harness.get_by_role_and_label(egui::Role::SpinButton, "Warp").focus();
+    settle(&mut harness);
+    harness.event(Event::Text("90-67,5".to_owned()));
+    settle(&mut harness);
+    press(&mut harness, Modifiers::NONE, Key::Enter);
+    near(&harness, "back", 22.5);
+    assert_ne!(picture(&mut harness), before);
+    press(&mut harness, Modifiers::COMMAND, Key::Z);
+    near(&harness, "back", turned);
+}
+
+#[test]
+fn an_edge_is_clicked_and_the_grain_laid_along_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    let piece = |node: &egui_kittest::kittest::AccessKitNode<'_>| {
+        node.label().is_some_and(|label| label.starts_with("Piece back"))
+    };
+    let place = harness.get_by(piece).rect();
+    // The side seam is the left edge of the back, below the armhole.
+    let at = egui::pos2(place.left() + 1.0, place.top() + 0.7 * place.height());
+    for event in [Event::PointerMoved(at), button(at, true), button(at, false)] {
+        harness.event(event);
+    }
+    settle(&mut harness);
+    command(&mut harness, "bias 45");
+    near(&harness, "back", 45.0);
+    press(&mut harness, Modifiers::NONE, Key::E);
+    let along = degrees(&harness, "back").unwrap();
+    assert!((along - 90.0).abs() < 8.0 && (along - 45.0).abs() > 30.0, "{along}");
+    assert_eq!(degrees(&harness, "yoke"), None, "the edge's panel alone");
+}
+
+#[test]
+fn a_shirt_that_lies_off_its_grain_is_set_straight() {
+    let folder = tempfile::tempdir().unwrap();
+    let garment = std::path::absolute("../assets/garments/variants/shirt-turned.glb").unwrap();
+    let cut = Garment::new(mesh::read(&garment, Unit::Metre).unwrap()).unwrap();
+    let grain = |panel: &str| {
+        let panel = cut.panels.iter().find(|it| it.id == panel).unwrap();
+        panel.pattern.grain.unwrap().to_degrees()
+    };
+    let mut harness = window(Studio::new().open([garment]), folder.path());
+    // The back hangs straight down, so upright is its grain.
+    select(&mut harness, "back");
+    command(&mut harness, "align wearer's up");
+    let off = (degrees(&harness, "back").unwrap() - grain("back")).rem_euclid(360.0);
+    assert!(off.min(360.0 - off) < 3.0, "{off}");
+    // The yoke on the cross grain.
+    select(&mut harness, "yoke");
+    command(&mut harness, "across the grain");
+    let off = (degrees(&harness, "yoke").unwrap() - grain("yoke") - 90.0).rem_euclid(360.0);
+    assert!(off.min(360.0 - off) < 0.01, "{off}");
+    // Sleeves: one is taken from its seam partner, the other mirrored from it.
+    select(&mut harness, "left sleeve");
+    command(&mut harness, "align seam partner");
+    assert!(degrees(&harness, "left-sleeve").is_some());
+    press(&mut harness, Modifiers::NONE, Key::M);
+    assert!(degrees(&harness, "right-sleeve").is_some());
+    let after = harness.state().document().project().clone();
+    let steps = harness.state().document().steps().count();
+    for _ in 0..steps {
+        press(&mut harness, Modifiers::COMMAND, Key::Z);
+    }
+    assert_eq!(degrees(&harness, "back"), None);
+    for _ in 0..steps {
+        press(&mut harness, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
+    }
+    assert_eq!(harness.state().document().project().panels, after.panels);
+}

@@ -1,0 +1,127 @@
+//! The tangent-field editor: every panel's fabric direction.
+//!
+//! The flat pattern stands beside the garment, linked with it: what is selected or under the pointer in one is so in the other. The
+//! grain of a panel is turned by its arrow, by number, by presets, or by what it is aligned to. What the editor keeps with the project
+//! beside directions ([`Assignments`]) can be read without a window.
+
+mod assignments;
+mod commands;
+mod grain;
+mod grain_pane;
+mod overlay;
+mod pattern;
+mod texts;
+
+use std::sync::Arc;
+
+use amc_core::mesh::{Garment, SurfacePlace};
+use egui::Painter;
+use studio_plugin::{Command, Context, Job, Pane, Place, Plugin, ViewportView};
+
+pub use assignments::{Assignment, Assignments, ID, Orientation};
+
+use commands::Copied;
+use grain_pane::GrainPane;
+use pattern::PatternPane;
+use pattern::sheet::Sheet;
+
+/// The editor, to be registered.
+#[derive(Debug, Default)]
+pub struct TangentEditor {
+    sheet: Option<Sheet>,
+    laying_out: Option<(Arc<Garment>, Job<Sheet>)>,
+    pattern: PatternPane,
+    grain: GrainPane,
+    copied: Option<Copied>,
+    /// The place on the garment under the pointer: in the flat pattern, and in the viewport.
+    under_pointer: (Option<SurfacePlace>, Option<SurfacePlace>),
+}
+
+impl Plugin for TangentEditor {
+    fn id(&self) -> &'static str {
+        ID
+    }
+
+    fn name(&self) -> &'static str {
+        texts::NAME
+    }
+
+    fn commands(&self) -> Vec<Command> {
+        commands::COMMANDS.to_vec()
+    }
+
+    fn can_run(&self, command: &str, studio: &Context<'_>) -> bool {
+        let Some(sheet) = &self.sheet else { return false };
+        match command {
+            "paste" | "paste-mirrored" => self.copied.is_some(),
+            "align-edge" => self.pattern.picked_edge.is_some(),
+            _ => commands::can_run(command, sheet, studio),
+        }
+    }
+
+    fn run(&mut self, command: &str, studio: &mut Context<'_>) {
+        match &self.sheet {
+            _ if command == "fit" => self.pattern.fit(),
+            Some(sheet) => {
+                commands::run(command, sheet, self.pattern.picked_edge.as_ref(), &mut self.copied, studio)
+            }
+            None => {}
+        }
+    }
+
+    fn update(&mut self, studio: &mut Context<'_>) {
+        let Some(garment) = &studio.stage.garment else {
+            (self.sheet, self.laying_out) = (None, None);
+            return;
+        };
+        let is_new = |known: Option<&Arc<Garment>>| known.is_none_or(|known| !Arc::ptr_eq(known, garment));
+        let laid_out = self.sheet.as_ref().map(|sheet| &sheet.garment);
+        let coming = self.laying_out.as_ref().map(|(garment, _)| garment);
+        if is_new(laid_out) && is_new(coming) {
+            self.sheet = None;
+            let of = Arc::clone(garment);
+            let job = studio.jobs.start(texts::OPENING, move |progress| Sheet::new(of, progress));
+            self.laying_out = Some((Arc::clone(garment), job));
+        }
+        if let Some(result) = self.laying_out.as_ref().and_then(|(_, job)| job.poll()) {
+            self.laying_out = None;
+            self.pattern = PatternPane::default();
+            match result {
+                Ok(sheet) => self.sheet = Some(sheet),
+                Err(error) => studio.notices.failed(error),
+            }
+        }
+    }
+
+    fn panes(&self) -> Vec<Pane> {
+        vec![
+            Pane { id: "pattern", title: texts::PATTERN, place: Place::Beside },
+            Pane { id: "grain", title: texts::GRAIN, place: Place::Right },
+        ]
+    }
+
+    fn show(&mut self, pane: &str, ui: &mut egui::Ui, studio: &mut Context<'_>) {
+        let Some(sheet) = &self.sheet else {
+            ui.weak(texts::OPENING);
+            return;
+        };
+        if sheet.pieces.is_empty() {
+            ui.label(texts::NO_UVS);
+        } else if pane == "pattern" {
+            self.under_pointer.0 = self.pattern.show(ui, sheet, self.under_pointer.1, studio);
+        } else if let Some(clicked) = self.grain.show(ui, sheet, studio) {
+            self.run(clicked, studio);
+        }
+    }
+
+    fn overlay(&mut self, painter: &Painter, view: &ViewportView<'_>, studio: &mut Context<'_>) {
+        let Some(sheet) = &self.sheet else { return };
+        overlay::arrows(painter, view, sheet, studio);
+        if let Some(place) = &self.under_pointer.0 {
+            overlay::mark(painter, view, &sheet.garment, place);
+        }
+        let pointer = painter.ctx().input(|input| input.pointer.hover_pos());
+        let within = pointer.filter(|at| view.rect.contains(*at));
+        self.under_pointer.1 = within.and_then(|at| overlay::place_at(view, at, &sheet.garment));
+    }
+}

@@ -1,0 +1,84 @@
+//! What the editor draws over the garment.
+
+use amc_core::mesh::{Garment, SurfacePlace};
+use egui::{Painter, Shape, Stroke};
+use glam::Vec2;
+use studio_plugin::{Context, ViewportView};
+
+use crate::grain;
+use crate::pattern::head;
+use crate::pattern::sheet::{Piece, Sheet};
+
+/// Points along an arrow.
+const POINTS: usize = 13;
+/// Length of its head, points.
+const HEAD: f32 = 10.0;
+
+/// The grain of the panels that are picked or under the pointer, as arrows that lie on the cloth.
+pub(crate) fn arrows(painter: &Painter, view: &ViewportView<'_>, sheet: &Sheet, studio: &Context<'_>) {
+    let selection = &*studio.selection;
+    for piece in &sheet.pieces {
+        let panel = sheet.panel(piece);
+        let is_hovered = selection.hovered.as_ref() == Some(&panel.id);
+        if view.hidden.contains(&piece.panel) || !(is_hovered || selection.panels.contains(&panel.id)) {
+            continue;
+        }
+        let along = grain::direction(panel, studio.document.project()).on_cloth(piece.uv_to_sheet.matrix2);
+        let line = line(&sheet.garment, piece, along);
+        let seen: Vec<egui::Pos2> =
+            line.iter().filter_map(|place| is_seen(&sheet.garment, piece, place, view)).collect();
+        // Only whole arrows: one that goes round the body is seen from one side.
+        if seen.len() < line.len() || seen.len() < 2 {
+            continue;
+        }
+        let visuals = painter.ctx().global_style().visuals.clone();
+        let (tip, before) = (seen[seen.len() - 1], seen[seen.len() - 2]);
+        let way = (tip - before).normalized();
+        for (width, color) in [(4.5, visuals.extreme_bg_color), (2.0, visuals.selection.bg_fill)] {
+            painter.line(seen.clone(), Stroke::new(width, color));
+            painter.add(Shape::convex_polygon(
+                head(tip + way * 2.0, way, HEAD).to_vec(),
+                color,
+                Stroke::NONE,
+            ));
+        }
+    }
+}
+
+/// A ring at a place on the garment.
+pub(crate) fn mark(painter: &Painter, view: &ViewportView<'_>, garment: &Garment, place: &SurfacePlace) {
+    if let Some(at) = view.to_window(place.position(garment)) {
+        let visuals = painter.ctx().global_style().visuals.clone();
+        painter.circle_stroke(at, 6.0, Stroke::new(4.0, visuals.extreme_bg_color));
+        painter.circle_stroke(at, 6.0, Stroke::new(2.0, visuals.selection.bg_fill));
+    }
+}
+
+/// The place on the garment under the pointer.
+pub(crate) fn place_at(view: &ViewportView<'_>, at: egui::Pos2, garment: &Garment) -> Option<SurfacePlace> {
+    let ray = view.ray(at);
+    let hit = view.picker.hit(ray, |panel| view.hidden.contains(&panel))?;
+    SurfacePlace::on_line(garment, hit.triangle, ray.origin, ray.direction)
+}
+
+/// The places of a piece's arrow on the garment, as far as they are on the piece.
+fn line(garment: &Garment, piece: &Piece, along: Vec2) -> Vec<SurfacePlace> {
+    let (to_uvs, half) = (piece.uv_to_sheet.inverse(), piece.half_arrow(along));
+    let place = |k: usize| {
+        let share = k as f32 / (POINTS - 1) as f32 * 2.0 - 1.0;
+        let at = piece.middle + along * (share * half);
+        piece.locator.locate(garment, to_uvs.transform_point2(at))
+    };
+    (0..POINTS).filter_map(place).collect()
+}
+
+/// Where a place is seen in the window; none where something is before it.
+fn is_seen(
+    garment: &Garment,
+    piece: &Piece,
+    place: &SurfacePlace,
+    view: &ViewportView<'_>,
+) -> Option<egui::Pos2> {
+    let at = view.to_window(place.position(garment))?;
+    (view.rect.contains(at) && view.panel_at(at) == Some(piece.panel)).then_some(at)
+}

@@ -1,0 +1,124 @@
+//! The words of the editor.
+
+pub(crate) const NAME: &str = "Grain";
+pub(crate) const PATTERN: &str = "Flat pattern";
+pub(crate) const GRAIN: &str = "Grain";
+pub(crate) const OPENING: &str = "The flat pattern is being laid out.";
+pub(crate) const NO_UVS: &str =
+    "The garment has no flat pattern (UVs). Give its panels a direction in the Panel pane.";
+pub(crate) const FIT: &str = "Show the whole pattern";
+pub(crate) const FIT_TIP: &str = "Brings all pieces of the flat pattern into its pane";
+pub(crate) const FIT_BUTTON: &str = "Fit";
+pub(crate) const SHORT_HELP: &str = "Drag an arrow to turn the grain.";
+pub(crate) const HELP: &str = "Drag the tip of an arrow to turn the grain (Shift: by 15 degrees). Drag beside the pieces to move, scroll to zoom.";
+pub(crate) const ALL: &str = "All panels";
+pub(crate) const ANGLE: &str = "Warp";
+pub(crate) const ANGLE_TIP: &str =
+    "Counter-clockwise from the right of the flat piece; drag, or type a number or a sum like 90 - 12.5";
+pub(crate) const DEGREES: &str = "\u{b0}";
+pub(crate) const TURN_LEFT: &str = "Turn the grain by +90\u{b0}";
+pub(crate) const TURN_RIGHT: &str = "Turn the grain by -90\u{b0}";
+pub(crate) const TURN_AROUND: &str = "Turn the grain by 180\u{b0}";
+pub(crate) const TURN_TIP: &str = "The selected panels (all, where none is)";
+pub(crate) const LEFT_90: &str = "+90\u{b0}";
+pub(crate) const RIGHT_90: &str = "-90\u{b0}";
+pub(crate) const AROUND: &str = "180\u{b0}";
+pub(crate) const NUDGE_LEFT: &str = "Nudge the grain by +1\u{b0}";
+pub(crate) const NUDGE_RIGHT: &str = "Nudge the grain by -1\u{b0}";
+pub(crate) const NUDGE_TIP: &str = "The selected panels (all, where none is)";
+pub(crate) const PRESETS: &str = "Cut";
+pub(crate) const WARP: &str = "Along the grain of the piece";
+pub(crate) const WARP_SHORT: &str = "Straight";
+pub(crate) const WEFT: &str = "Across the grain of the piece";
+pub(crate) const WEFT_SHORT: &str = "Cross";
+pub(crate) const BIAS_45: &str = "On the bias, 45\u{b0}";
+pub(crate) const BIAS_45_SHORT: &str = "Bias 45\u{b0}";
+pub(crate) const BIAS_135: &str = "On the bias, 135\u{b0}";
+pub(crate) const BIAS_135_SHORT: &str = "Bias 135\u{b0}";
+pub(crate) const PRESET_TIP: &str =
+    "Counted from the grain that the garment's file names, or from upright in the flat pattern";
+pub(crate) const ALIGN: &str = "Align to";
+pub(crate) const EDGE: &str = "Align the grain to the picked edge";
+pub(crate) const EDGE_SHORT: &str = "Picked edge";
+pub(crate) const EDGE_TIP: &str =
+    "Click an edge of a piece in the flat pattern first; the panel that it belongs to is turned";
+pub(crate) const UP: &str = "Align the grain to the wearer's up";
+pub(crate) const UP_SHORT: &str = "Wearer's up";
+pub(crate) const ACROSS: &str = "Align the grain to the wearer's right";
+pub(crate) const ACROSS_SHORT: &str = "Wearer's right";
+pub(crate) const FORWARD: &str = "Align the grain to the wearer's front";
+pub(crate) const FORWARD_SHORT: &str = "Wearer's front";
+pub(crate) const AXIS_TIP: &str = "As the panel hangs on the body, in the mean over its area";
+pub(crate) const PARTNER: &str = "Align the grain to the seam partner";
+pub(crate) const PARTNER_SHORT: &str = "Seam partner";
+pub(crate) const PARTNER_TIP: &str = "The direction goes straight on across the longest seam";
+pub(crate) const ORIENTATION: &str = "Laying";
+pub(crate) const ORIENTATION_TIP: &str = "In which turns the piece may be laid on the cloth";
+pub(crate) const TWO_WAY: &str = "two-way";
+pub(crate) const ONE_WAY: &str = "one-way";
+pub(crate) const NAP: &str = "with nap";
+pub(crate) const SEVERAL: &str = "several";
+pub(crate) const LOCK: &str = "Locked";
+pub(crate) const LOCK_TIP: &str = "The direction of a locked panel stays as it is";
+pub(crate) const LINK: &str = "The mirror partner follows";
+pub(crate) const LINK_TIP: &str = "What turns this panel turns its mirror image the other way";
+pub(crate) const COPY: &str = "Copy the grain";
+pub(crate) const COPY_TIP: &str = "Of the first selected panel";
+pub(crate) const PASTE: &str = "Paste the grain";
+pub(crate) const PASTE_TIP: &str = "On the selected panels (on all, where none is)";
+pub(crate) const PASTE_MIRRORED: &str = "Paste the grain mirrored";
+pub(crate) const MIRROR: &str = "Mirror the grain to the partner";
+pub(crate) const MIRROR_TIP: &str = "Gives the mirror partners of the selected panels the mirrored direction";
+pub(crate) const RESET: &str = "Reset the grain";
+pub(crate) const RESET_TIP: &str = "The panels are cut along their grain again";
+pub(crate) const SHORT_COPY: &str = "Copy";
+pub(crate) const SHORT_PASTE: &str = "Paste";
+pub(crate) const SHORT_PASTE_MIRRORED: &str = "Paste mirrored";
+pub(crate) const SHORT_MIRROR: &str = "Mirror to partner";
+pub(crate) const SHORT_RESET: &str = "Reset";
+pub(crate) const NO_PARTNER: &str = "None of these panels has a mirror partner.";
+pub(crate) const NOT_ALIGNED: &str =
+    "There is nothing to align to: the panel has no flat pattern, no such seam, or lies square to that axis.";
+
+/// What a piece of the flat pattern is called for who cannot see it.
+pub(crate) fn piece(name: &str, degrees: f32) -> String {
+    format!("Piece {name}, warp at {degrees:.1} degrees")
+}
+
+/// What the tip of a piece's arrow is called.
+pub(crate) fn arrow(name: &str) -> String {
+    format!("Grain of {name}")
+}
+
+/// So many panels are selected.
+pub(crate) fn panels(count: usize) -> String {
+    if count == 1 { "1 panel".to_owned() } else { format!("{count} panels") }
+}
+
+/// So many panels could not be turned.
+pub(crate) fn locked(count: usize) -> String {
+    format!(
+        "{} locked: the direction stays as it is",
+        if count == 1 { "1 panel is".to_owned() } else { format!("{count} panels are") }
+    )
+}
+
+/// For the history.
+pub(crate) fn laid(count: usize, orientation: &str) -> String {
+    format!("Lay {} {orientation}", panels(count))
+}
+
+/// For the history.
+pub(crate) fn locking(count: usize, lock: bool) -> String {
+    format!("{} {}", if lock { "Lock" } else { "Unlock" }, panels(count))
+}
+
+/// For the history.
+pub(crate) fn linking(count: usize, link: bool) -> String {
+    format!("{} the mirror partners of {}", if link { "Link" } else { "Part" }, panels(count))
+}
+
+/// The panel's mirror image.
+pub(crate) fn partner(name: &str) -> String {
+    format!("Mirror partner: {name}")
+}
