@@ -47,7 +47,7 @@ fn sleeves_are_turned_by_keys_mirrored_locked_and_undone() {
         press(&mut harness, Modifiers::NONE, Key::CloseBracket);
     }
     near(&harness, "left-sleeve", 93.0);
-    press(&mut harness, Modifiers::NONE, Key::M);
+    press(&mut harness, Modifiers::SHIFT, Key::M);
     near(&harness, "right-sleeve", 87.0);
     press(&mut harness, Modifiers::COMMAND, Key::Z);
     assert_eq!(degrees(&harness, "right-sleeve"), None);
@@ -145,7 +145,7 @@ fn a_shirt_that_lies_off_its_grain_is_set_straight() {
     select(&mut harness, "left sleeve");
     command(&mut harness, "align seam partner");
     assert!(degrees(&harness, "left-sleeve").is_some());
-    press(&mut harness, Modifiers::NONE, Key::M);
+    press(&mut harness, Modifiers::SHIFT, Key::M);
     assert!(degrees(&harness, "right-sleeve").is_some());
     let after = harness.state().document().project().clone();
     let steps = harness.state().document().steps().count();

@@ -41,18 +41,25 @@ pub(crate) const COMMANDS: &[Command] = &[
     keyed(command("copy", texts::COPY, texts::COPY_TIP), Modifiers::COMMAND, Key::C),
     keyed(command("paste", texts::PASTE, texts::PASTE_TIP), Modifiers::COMMAND, Key::V),
     command("paste-mirrored", texts::PASTE_MIRRORED, texts::PASTE_TIP),
-    keyed(command("mirror", texts::MIRROR, texts::MIRROR_TIP), Modifiers::NONE, Key::M),
+    keyed(command("mirror", texts::MIRROR, texts::MIRROR_TIP), Modifiers::SHIFT, Key::M),
     command("reset", texts::RESET, texts::RESET_TIP),
 ];
 
-/// What was copied.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Copied(Direction);
+/// What commands take from earlier ones.
+#[derive(Debug, Default)]
+pub(crate) struct Given {
+    /// What was copied.
+    copied: Option<Direction>,
+    /// The edge that was clicked last.
+    pub(crate) picked_edge: Option<PickedEdge>,
+}
 
-/// Whether a command can be run; what was copied or picked aside.
-pub(crate) fn can_run(id: &str, sheet: &Sheet, studio: &Context<'_>) -> bool {
+/// Whether a command can be run.
+pub(crate) fn can_run(id: &str, sheet: &Sheet, given: &Given, studio: &Context<'_>) -> bool {
     let panels = || grain::picked(&sheet.garment, studio);
     match id {
+        "paste" | "paste-mirrored" => given.copied.is_some(),
+        "align-edge" => given.picked_edge.is_some(),
         "copy" => !studio.selection.panels.is_empty(),
         "mirror" => panels().iter().any(|&panel| partners::partner(&sheet.garment, panel).is_some()),
         "align-partner" => {
@@ -63,13 +70,7 @@ pub(crate) fn can_run(id: &str, sheet: &Sheet, studio: &Context<'_>) -> bool {
 }
 
 /// Runs a command that changes grains.
-pub(crate) fn run(
-    id: &str,
-    sheet: &Sheet,
-    picked_edge: Option<&PickedEdge>,
-    copied: &mut Option<Copied>,
-    studio: &mut Context<'_>,
-) {
+pub(crate) fn run(id: &str, sheet: &Sheet, given: &mut Given, studio: &mut Context<'_>) {
     let garment = &*sheet.garment;
     let panels = grain::picked(garment, studio);
     let turn = |by: f32, studio: &mut Context<'_>| grain::turn(&panels, by, None, garment, studio);
@@ -89,7 +90,7 @@ pub(crate) fn run(
         "weft" => cut(FRAC_PI_2, studio),
         "bias-45" => cut(-FRAC_PI_4, studio),
         "bias-135" => cut(FRAC_PI_4, studio),
-        "align-edge" => align_edge(sheet, picked_edge, studio),
+        "align-edge" => align_edge(sheet, given.picked_edge.as_ref(), studio),
         "align-partner" => {
             let project = studio.document.project().clone();
             let of = |partner: usize| grain::direction(&garment.panels[partner], &project);
@@ -105,15 +106,15 @@ pub(crate) fn run(
             let first = panels
                 .first()
                 .map(|&panel| grain::direction(&garment.panels[panel], studio.document.project()));
-            *copied = first.map(Copied);
+            given.copied = first;
         }
         "paste" => {
-            if let Some(Copied(direction)) = *copied {
+            if let Some(direction) = given.copied {
                 grain::set(&panels, garment, studio, |_, _| Some(direction));
             }
         }
         "paste-mirrored" => {
-            if let Some(Copied(direction)) = *copied {
+            if let Some(direction) = given.copied {
                 let angle = wrapped(PI - direction.angle);
                 grain::set(&panels, garment, studio, |_, _| Some(Direction { angle, ..direction }));
             }

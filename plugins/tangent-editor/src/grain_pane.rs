@@ -6,7 +6,7 @@ use studio_plugin::Context;
 use studio_plugin::document::Gesture;
 
 use crate::assignments::{Assignments, Orientation};
-use crate::commands::{self, COMMANDS};
+use crate::commands::{self, COMMANDS, Given};
 use crate::grain::{self, expression, partners};
 use crate::pattern::sheet::Sheet;
 use crate::pattern::shown_degrees;
@@ -27,6 +27,7 @@ impl GrainPane {
         &mut self,
         ui: &mut Ui,
         sheet: &Sheet,
+        given: &Given,
         studio: &mut Context<'_>,
     ) -> Option<&'static str> {
         let garment = &sheet.garment;
@@ -48,7 +49,7 @@ impl GrainPane {
                 for &(id, short) in ids {
                     let Some(command) = COMMANDS.iter().find(|command| command.id == id) else { continue };
                     let button =
-                        ui.add_enabled(commands::can_run(id, sheet, studio), egui::Button::new(short));
+                        ui.add_enabled(commands::can_run(id, sheet, given, studio), egui::Button::new(short));
                     if button.on_hover_text(format!("{}. {}", command.name, command.tooltip)).clicked() {
                         clicked = Some(id);
                     }

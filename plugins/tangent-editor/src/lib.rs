@@ -20,7 +20,7 @@ use studio_plugin::{Command, Context, Job, Pane, Place, Plugin, ViewportView};
 
 pub use assignments::{Assignment, Assignments, ID, Orientation};
 
-use commands::Copied;
+use commands::Given;
 use grain_pane::GrainPane;
 use pattern::PatternPane;
 use pattern::sheet::Sheet;
@@ -32,7 +32,7 @@ pub struct TangentEditor {
     laying_out: Option<(Arc<Garment>, Job<Sheet>)>,
     pattern: PatternPane,
     grain: GrainPane,
-    copied: Option<Copied>,
+    given: Given,
     /// The place on the garment under the pointer: in the flat pattern, and in the viewport.
     under_pointer: (Option<SurfacePlace>, Option<SurfacePlace>),
 }
@@ -51,20 +51,13 @@ impl Plugin for TangentEditor {
     }
 
     fn can_run(&self, command: &str, studio: &Context<'_>) -> bool {
-        let Some(sheet) = &self.sheet else { return false };
-        match command {
-            "paste" | "paste-mirrored" => self.copied.is_some(),
-            "align-edge" => self.pattern.picked_edge.is_some(),
-            _ => commands::can_run(command, sheet, studio),
-        }
+        self.sheet.as_ref().is_some_and(|sheet| commands::can_run(command, sheet, &self.given, studio))
     }
 
     fn run(&mut self, command: &str, studio: &mut Context<'_>) {
         match &self.sheet {
             _ if command == "fit" => self.pattern.fit(),
-            Some(sheet) => {
-                commands::run(command, sheet, self.pattern.picked_edge.as_ref(), &mut self.copied, studio)
-            }
+            Some(sheet) => commands::run(command, sheet, &mut self.given, studio),
             None => {}
         }
     }
@@ -85,7 +78,7 @@ impl Plugin for TangentEditor {
         }
         if let Some(result) = self.laying_out.as_ref().and_then(|(_, job)| job.poll()) {
             self.laying_out = None;
-            self.pattern = PatternPane::default();
+            (self.pattern, self.given.picked_edge) = (PatternPane::default(), None);
             match result {
                 Ok(sheet) => self.sheet = Some(sheet),
                 Err(error) => studio.notices.failed(error),
@@ -108,8 +101,9 @@ impl Plugin for TangentEditor {
         if sheet.pieces.is_empty() {
             ui.label(texts::NO_UVS);
         } else if pane == "pattern" {
-            self.under_pointer.0 = self.pattern.show(ui, sheet, self.under_pointer.1, studio);
-        } else if let Some(clicked) = self.grain.show(ui, sheet, studio) {
+            let marked = self.under_pointer.1;
+            self.under_pointer.0 = self.pattern.show(ui, sheet, &mut self.given.picked_edge, marked, studio);
+        } else if let Some(clicked) = self.grain.show(ui, sheet, &self.given, studio) {
             self.run(clicked, studio);
         }
     }

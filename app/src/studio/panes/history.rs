@@ -17,7 +17,7 @@ impl Plugin for History {
     }
 
     fn panes(&self) -> Vec<Pane> {
-        vec![Pane { id: "steps", title: texts::NAME, place: Place::Right }]
+        vec![Pane { id: "steps", title: texts::NAME, place: Place::Bottom }]
     }
 
     fn show(&mut self, _pane: &str, ui: &mut egui::Ui, studio: &mut Context<'_>) {

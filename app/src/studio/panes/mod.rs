@@ -23,8 +23,8 @@ pub(super) fn register(registry: &mut Registry) {
     registry.register(print::Prints::default());
     registry.register(look::Look);
     registry.register(export::Export::default());
-    registry.register(history::History);
     registry.register(notes::Notes::default());
+    registry.register(history::History);
     registry.register(activity::Activity);
 }
 

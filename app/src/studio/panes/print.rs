@@ -77,7 +77,7 @@ impl Plugin for Prints {
     }
 
     fn panes(&self) -> Vec<Pane> {
-        vec![Pane { id: "print", title: texts::NAME, place: Place::Right }]
+        vec![Pane { id: "print", title: texts::NAME, place: Place::Left }]
     }
 
     fn show(&mut self, _pane: &str, ui: &mut egui::Ui, studio: &mut Context<'_>) {

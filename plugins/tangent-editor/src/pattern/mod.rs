@@ -34,8 +34,6 @@ pub(crate) struct PatternPane {
     /// None: the whole is to be shown.
     camera: Option<Camera>,
     dragged: Option<Turn>,
-    /// The edge that was clicked last.
-    pub(crate) picked_edge: Option<PickedEdge>,
 }
 
 /// An arrow in the hand.
@@ -75,6 +73,7 @@ impl PatternPane {
         &mut self,
         ui: &mut egui::Ui,
         sheet: &Sheet,
+        picked_edge: &mut Option<PickedEdge>,
         marked: Option<SurfacePlace>,
         studio: &mut Context<'_>,
     ) -> Option<SurfacePlace> {
@@ -93,10 +92,13 @@ impl PatternPane {
             .filter(|at| pane.contains(*at) && background.contains_pointer());
         let at = pointer.map(|at| camera.to_sheet(at, pane));
         let under = at.map(|at| under(sheet, at, REACH / camera.scale)).unwrap_or_default();
-        self.pick(ui, sheet, (camera, pane), under, &background, studio);
+        if background.clicked() {
+            *picked_edge = click(ui, sheet, under, studio);
+        }
+        pick(ui, sheet, (camera, pane), under, studio);
         self.turn_arrows(ui, sheet, (camera, pane), studio);
         let marked_at = marked.and_then(|place| on_sheet(sheet, &place));
-        let seen = paint::Seen { under, picked_edge: self.picked_edge.as_ref(), marked: marked_at };
+        let seen = paint::Seen { under, picked_edge: picked_edge.as_ref(), marked: marked_at };
         paint::paint(&ui.painter_at(pane), sheet, (camera, pane), &seen, ui.visuals(), studio);
         let piece = &sheet.pieces[under.piece?];
         piece.locator.locate(&sheet.garment, piece.uv_to_sheet.inverse().transform_point2(at?))
@@ -119,59 +121,6 @@ impl PatternPane {
         }
         if background.double_clicked() {
             self.camera = None;
-        }
-    }
-
-    /// Hovering and clicking.
-    fn pick(
-        &mut self,
-        ui: &egui::Ui,
-        sheet: &Sheet,
-        (camera, pane): (Camera, Rect),
-        under: Under,
-        background: &Response,
-        studio: &mut Context<'_>,
-    ) {
-        let panel = |piece: usize| sheet.panel(&sheet.pieces[piece]);
-        if let Some(piece) = under.piece {
-            studio.selection.hovered = Some(panel(piece).id.clone());
-        }
-        let add = ui.input(|input| input.modifiers.command || input.modifiers.shift);
-        if background.clicked() {
-            match under.piece {
-                Some(piece) => studio.selection.click(&panel(piece).id, add),
-                None => studio.selection.panels.clear(),
-            }
-            self.picked_edge = under.edge.and_then(|(piece, edge)| {
-                let along = sheet.pieces[piece].edges[edge].along()?;
-                Some(PickedEdge { panel: sheet.pieces[piece].panel, edge, along })
-            });
-        }
-        // For the keyboard and for screen readers: a place for each piece, which the pointer does not need.
-        for (number, piece) in sheet.pieces.iter().enumerate() {
-            let rect = camera.rect(piece.low, piece.high, pane).intersect(pane);
-            if !rect.is_positive() {
-                continue;
-            }
-            let response =
-                ui.interact(rect, ui.scope_id().with(("piece", number)), Sense::focusable_noninteractive());
-            let degrees = shown_degrees(sheet, piece, studio);
-            response.widget_info(|| {
-                egui::WidgetInfo::labeled(
-                    egui::Role::Button,
-                    true,
-                    texts::piece(&panel(number).name, degrees),
-                )
-            });
-            let has_focus = response.has_focus();
-            let asked = ui.input(|input| {
-                let by_key = input.key_pressed(egui::Key::Enter) || input.key_pressed(egui::Key::Space);
-                input.has_accesskit_action_request(response.id, egui::accesskit::Action::Click)
-                    || has_focus && by_key
-            });
-            if asked {
-                studio.selection.click(&panel(number).id, add);
-            }
         }
     }
 
@@ -222,6 +171,58 @@ impl PatternPane {
             if response.drag_stopped() {
                 self.dragged = None;
             }
+        }
+    }
+}
+
+/// Selects what was clicked; gives the edge that was.
+fn click(ui: &egui::Ui, sheet: &Sheet, under: Under, studio: &mut Context<'_>) -> Option<PickedEdge> {
+    match under.piece {
+        Some(piece) => studio.selection.click(&sheet.panel(&sheet.pieces[piece]).id, adds(ui)),
+        None => studio.selection.panels.clear(),
+    }
+    let (piece, edge) = under.edge?;
+    let piece = &sheet.pieces[piece];
+    Some(PickedEdge { panel: piece.panel, edge, along: piece.edges[edge].along()? })
+}
+
+/// Whether a click adds to what is selected.
+fn adds(ui: &egui::Ui) -> bool {
+    ui.input(|input| input.modifiers.command || input.modifiers.shift)
+}
+
+/// Hovering, and what takes the place of clicks for the keyboard and for screen readers: a place for each piece, which the
+/// pointer does not need.
+fn pick(
+    ui: &egui::Ui,
+    sheet: &Sheet,
+    (camera, pane): (Camera, Rect),
+    under: Under,
+    studio: &mut Context<'_>,
+) {
+    if let Some(piece) = under.piece {
+        studio.selection.hovered = Some(sheet.panel(&sheet.pieces[piece]).id.clone());
+    }
+    for (number, piece) in sheet.pieces.iter().enumerate() {
+        let rect = camera.rect(piece.low, piece.high, pane).intersect(pane);
+        if !rect.is_positive() {
+            continue;
+        }
+        let panel = sheet.panel(piece);
+        let response =
+            ui.interact(rect, ui.scope_id().with(("piece", number)), Sense::focusable_noninteractive());
+        let degrees = shown_degrees(sheet, piece, studio);
+        response.widget_info(|| {
+            egui::WidgetInfo::labeled(egui::Role::Button, true, texts::piece(&panel.name, degrees))
+        });
+        let has_focus = response.has_focus();
+        let asked = ui.input(|input| {
+            let by_key = input.key_pressed(egui::Key::Enter) || input.key_pressed(egui::Key::Space);
+            input.has_accesskit_action_request(response.id, egui::accesskit::Action::Click)
+                || has_focus && by_key
+        });
+        if asked {
+            studio.selection.click(&panel.id, adds(ui));
         }
     }
 }

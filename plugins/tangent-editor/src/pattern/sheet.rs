@@ -249,7 +249,10 @@ fn middle(lines: &[Vec<Vec2>], edges: &[Edge], low: Vec2, high: Vec2) -> Vec2 {
     };
     let inside = (0..POINTS * POINTS).map(place).filter(|&at| is_inside(lines, at));
     let room = |at: &Vec2| edges.iter().map(|edge| edge.distance(*at)).fold(f32::INFINITY, f32::min);
-    inside.max_by(|a, b| room(a).total_cmp(&room(b))).unwrap_or((low + high) / 2.0)
+    // In a strip there is as much room anywhere: the nearer to the middle of the box, the better.
+    let box_middle = (low + high) / 2.0;
+    let worth = |at: &Vec2| room(at) - 0.1 * at.distance(box_middle);
+    inside.max_by(|a, b| worth(a).total_cmp(&worth(b))).unwrap_or(box_middle)
 }
 
 #[cfg(test)]
