@@ -10,7 +10,7 @@ use studio_plugin::{Command, Context};
 
 use crate::grain::{self, align, partners};
 use crate::pattern::PickedEdge;
-use crate::pattern::sheet::Sheet;
+use crate::sheet::Sheet;
 use crate::texts;
 
 const fn command(id: &'static str, name: &'static str, tooltip: &'static str) -> Command {
@@ -43,6 +43,7 @@ pub(crate) const COMMANDS: &[Command] = &[
     command("paste-mirrored", texts::PASTE_MIRRORED, texts::PASTE_TIP),
     keyed(command("mirror", texts::MIRROR, texts::MIRROR_TIP), Modifiers::SHIFT, Key::M),
     command("reset", texts::RESET, texts::RESET_TIP),
+    command("save-sheet", texts::SAVE, texts::SAVE_TIP),
 ];
 
 /// What commands take from earlier ones.

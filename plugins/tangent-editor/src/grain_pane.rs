@@ -8,8 +8,8 @@ use studio_plugin::document::Gesture;
 use crate::assignments::{Assignments, Orientation};
 use crate::commands::{self, COMMANDS, Given};
 use crate::grain::{self, expression, partners};
-use crate::pattern::sheet::Sheet;
 use crate::pattern::shown_degrees;
+use crate::sheet::Sheet;
 use crate::texts;
 
 /// Between groups, points.

@@ -4,118 +4,25 @@
 //! grain of a panel is turned by its arrow, by number, by presets, or by what it is aligned to. What the editor keeps with the project
 //! beside directions ([`Assignments`]) can be read without a window.
 
+#![cfg_attr(not(feature = "window"), allow(dead_code, reason = "the window uses the rest"))]
+
 mod assignments;
+#[cfg(feature = "window")]
 mod commands;
+#[cfg(feature = "window")]
+mod editor;
+#[cfg(feature = "window")]
 mod grain;
+#[cfg(feature = "window")]
 mod grain_pane;
+#[cfg(feature = "window")]
 mod overlay;
+#[cfg(feature = "window")]
 mod pattern;
+mod sheet;
+pub mod tech_sheet;
 mod texts;
 
-use std::sync::Arc;
-
-use amc_core::mesh::{Garment, SurfacePlace};
-use egui::Painter;
-use studio_plugin::{Command, Context, Job, Pane, Place, Plugin, ViewportView};
-
 pub use assignments::{Assignment, Assignments, ID, Orientation};
-
-use commands::Given;
-use grain_pane::GrainPane;
-use pattern::PatternPane;
-use pattern::sheet::Sheet;
-
-/// The editor, to be registered.
-#[derive(Debug, Default)]
-pub struct TangentEditor {
-    sheet: Option<Sheet>,
-    laying_out: Option<(Arc<Garment>, Job<Sheet>)>,
-    pattern: PatternPane,
-    grain: GrainPane,
-    given: Given,
-    /// The place on the garment under the pointer: in the flat pattern, and in the viewport.
-    under_pointer: (Option<SurfacePlace>, Option<SurfacePlace>),
-}
-
-impl Plugin for TangentEditor {
-    fn id(&self) -> &'static str {
-        ID
-    }
-
-    fn name(&self) -> &'static str {
-        texts::NAME
-    }
-
-    fn commands(&self) -> Vec<Command> {
-        commands::COMMANDS.to_vec()
-    }
-
-    fn can_run(&self, command: &str, studio: &Context<'_>) -> bool {
-        self.sheet.as_ref().is_some_and(|sheet| commands::can_run(command, sheet, &self.given, studio))
-    }
-
-    fn run(&mut self, command: &str, studio: &mut Context<'_>) {
-        match &self.sheet {
-            _ if command == "fit" => self.pattern.fit(),
-            Some(sheet) => commands::run(command, sheet, &mut self.given, studio),
-            None => {}
-        }
-    }
-
-    fn update(&mut self, studio: &mut Context<'_>) {
-        let Some(garment) = &studio.stage.garment else {
-            (self.sheet, self.laying_out) = (None, None);
-            return;
-        };
-        let is_new = |known: Option<&Arc<Garment>>| known.is_none_or(|known| !Arc::ptr_eq(known, garment));
-        let laid_out = self.sheet.as_ref().map(|sheet| &sheet.garment);
-        let coming = self.laying_out.as_ref().map(|(garment, _)| garment);
-        if is_new(laid_out) && is_new(coming) {
-            self.sheet = None;
-            let of = Arc::clone(garment);
-            let job = studio.jobs.start(texts::OPENING, move |progress| Sheet::new(of, progress));
-            self.laying_out = Some((Arc::clone(garment), job));
-        }
-        if let Some(result) = self.laying_out.as_ref().and_then(|(_, job)| job.poll()) {
-            self.laying_out = None;
-            (self.pattern, self.given.picked_edge) = (PatternPane::default(), None);
-            match result {
-                Ok(sheet) => self.sheet = Some(sheet),
-                Err(error) => studio.notices.failed(error),
-            }
-        }
-    }
-
-    fn panes(&self) -> Vec<Pane> {
-        vec![
-            Pane { id: "pattern", title: texts::PATTERN, place: Place::Beside },
-            Pane { id: "grain", title: texts::GRAIN, place: Place::Right },
-        ]
-    }
-
-    fn show(&mut self, pane: &str, ui: &mut egui::Ui, studio: &mut Context<'_>) {
-        let Some(sheet) = &self.sheet else {
-            ui.weak(texts::OPENING);
-            return;
-        };
-        if sheet.pieces.is_empty() {
-            ui.label(texts::NO_UVS);
-        } else if pane == "pattern" {
-            let marked = self.under_pointer.1;
-            self.under_pointer.0 = self.pattern.show(ui, sheet, &mut self.given.picked_edge, marked, studio);
-        } else if let Some(clicked) = self.grain.show(ui, sheet, &self.given, studio) {
-            self.run(clicked, studio);
-        }
-    }
-
-    fn overlay(&mut self, painter: &Painter, view: &ViewportView<'_>, studio: &mut Context<'_>) {
-        let Some(sheet) = &self.sheet else { return };
-        overlay::arrows(painter, view, sheet, studio);
-        if let Some(place) = &self.under_pointer.0 {
-            overlay::mark(painter, view, &sheet.garment, place);
-        }
-        let pointer = painter.ctx().input(|input| input.pointer.hover_pos());
-        let within = pointer.filter(|at| view.rect.contains(*at));
-        self.under_pointer.1 = within.and_then(|at| overlay::place_at(view, at, &sheet.garment));
-    }
-}
+#[cfg(feature = "window")]
+pub use editor::TangentEditor;

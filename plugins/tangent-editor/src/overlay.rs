@@ -7,7 +7,7 @@ use studio_plugin::{Context, ViewportView};
 
 use crate::grain;
 use crate::pattern::head;
-use crate::pattern::sheet::{Piece, Sheet};
+use crate::sheet::{Piece, Sheet};
 
 /// Points along an arrow.
 const POINTS: usize = 13;

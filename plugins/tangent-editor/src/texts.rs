@@ -80,6 +80,43 @@ pub(crate) const NO_PARTNER: &str = "None of these panels has a mirror partner."
 pub(crate) const NOT_ALIGNED: &str =
     "There is nothing to align to: the panel has no flat pattern, no such seam, or lies square to that axis.";
 
+pub(crate) const NO_FABRIC: &str = "-";
+pub(crate) const SAVE: &str = "Save the tech sheet ...";
+pub(crate) const SAVE_TIP: &str =
+    "The flat pattern to scale, with grain, fabric and laying: SVG or PDF to read, DXF for pattern programs";
+pub(crate) const SAVE_TITLE: &str = "Save the tech sheet";
+pub(crate) const SVG: &str = "Drawings";
+pub(crate) const PDF: &str = "Documents";
+pub(crate) const DXF: &str = "Patterns (AAMA)";
+
+/// The tech sheet is being written.
+pub(crate) fn saving(file: impl std::fmt::Display) -> String {
+    format!("Saving {file}")
+}
+
+/// The tech sheet is written.
+pub(crate) fn saved(file: impl std::fmt::Display) -> String {
+    format!("Saved {file}")
+}
+
+/// Over the table of a tech sheet.
+pub(crate) const COLUMNS: [&str; 5] = ["", "Piece", "Warp", "Fabric", "Laying"];
+
+/// An angle on a tech sheet.
+pub(crate) fn degrees(degrees: f32) -> String {
+    format!("{degrees:.1}\u{b0}")
+}
+
+/// Beside the title of a sheet.
+pub(crate) fn scale(scale: f32) -> String {
+    format!("Scale 1:{scale}")
+}
+
+/// Beside the bar of the scale.
+pub(crate) fn centimetres(length: f32) -> String {
+    format!("{length} cm")
+}
+
 /// What a piece of the flat pattern is called for who cannot see it.
 pub(crate) fn piece(name: &str, degrees: f32) -> String {
     format!("Piece {name}, warp at {degrees:.1} degrees")

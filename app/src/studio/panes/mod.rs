@@ -18,7 +18,7 @@ pub(super) fn register(registry: &mut Registry) {
     registry.register(panels::Panels::default());
     registry.register(fabrics::Fabrics::default());
     registry.register(inspector::Inspector::default());
-    #[cfg(feature = "tangent-editor")]
+    #[cfg(feature = "editor")]
     registry.register(tangent_editor::TangentEditor::default());
     registry.register(print::Prints::default());
     registry.register(look::Look);

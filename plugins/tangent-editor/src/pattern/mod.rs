@@ -1,9 +1,7 @@
 //! The flat pattern's pane: pieces, seams, grain, beside the garment and linked with it.
 
 pub(crate) mod camera;
-pub(crate) mod line;
 mod paint;
-pub(crate) mod sheet;
 
 use amc_core::direction::Direction;
 use amc_core::mesh::SurfacePlace;
@@ -13,8 +11,8 @@ use studio_plugin::Context;
 use studio_plugin::document::Gesture;
 
 use self::camera::Camera;
-use self::sheet::{Piece, Sheet};
 use crate::grain;
+use crate::sheet::{Piece, Sheet, line};
 use crate::texts;
 
 /// How near the pointer must be to an edge or a seam, points.

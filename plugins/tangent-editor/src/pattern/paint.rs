@@ -8,8 +8,8 @@ use glam::Vec2;
 use studio_plugin::Context;
 
 use super::camera::Camera;
-use super::sheet::{Piece, Sheet};
 use super::{PickedEdge, Under, direction_on_sheet, head, shown_degrees};
+use crate::sheet::{Piece, Sheet};
 
 /// Points of the names.
 const TEXT: f32 = 11.0;

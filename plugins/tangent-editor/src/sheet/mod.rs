@@ -1,12 +1,14 @@
 //! The flat pattern laid out: every piece in its true proportions, side by side.
 
+pub(crate) mod line;
+
 use std::sync::Arc;
 
 use amc_core::mesh::{FlatLocator, Garment, Panel};
 use amc_core::{Progress, Result};
 use glam::{Affine2, Mat2, Vec2};
 
-use super::line::{Edge, edges, simplified};
+use self::line::{Edge, edges, simplified};
 
 /// Between pieces, of the mean length of a piece's side.
 const GAP: f32 = 0.12;

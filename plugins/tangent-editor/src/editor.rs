@@ -1,0 +1,166 @@
+//! The editor as a plugin.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use amc_core::mesh::{Garment, SurfacePlace};
+use egui::Painter;
+use studio_plugin::document::Project;
+use studio_plugin::{Ask, Command, Context, FileKind, Job, Pane, Place, Plugin, ViewportView};
+
+use crate::assignments::{Assignments, ID};
+use crate::commands::{self, Given};
+use crate::grain;
+use crate::grain_pane::GrainPane;
+use crate::pattern::PatternPane;
+use crate::sheet::Sheet;
+use crate::tech_sheet::{self, Said};
+use crate::{overlay, texts};
+
+/// The editor, to be registered.
+#[derive(Debug, Default)]
+pub struct TangentEditor {
+    sheet: Option<Sheet>,
+    laying_out: Option<(Arc<Garment>, Job<Sheet>)>,
+    pattern: PatternPane,
+    grain: GrainPane,
+    given: Given,
+    /// The place on the garment under the pointer: in the flat pattern, and in the viewport.
+    under_pointer: (Option<SurfacePlace>, Option<SurfacePlace>),
+    saving: Vec<(String, Job<()>)>,
+}
+
+impl Plugin for TangentEditor {
+    fn id(&self) -> &'static str {
+        ID
+    }
+
+    fn name(&self) -> &'static str {
+        texts::NAME
+    }
+
+    fn commands(&self) -> Vec<Command> {
+        commands::COMMANDS.to_vec()
+    }
+
+    fn can_run(&self, command: &str, studio: &Context<'_>) -> bool {
+        self.sheet.as_ref().is_some_and(|sheet| commands::can_run(command, sheet, &self.given, studio))
+    }
+
+    fn run(&mut self, command: &str, studio: &mut Context<'_>) {
+        match &self.sheet {
+            _ if command == "fit" => self.pattern.fit(),
+            _ if command == "save-sheet" => ask(studio),
+            Some(sheet) => commands::run(command, sheet, &mut self.given, studio),
+            None => {}
+        }
+    }
+
+    fn chosen(&mut self, _what: &str, file: &Path, studio: &mut Context<'_>) {
+        let Some(garment) = studio.stage.garment.clone() else { return };
+        let project = studio.document.project();
+        let said = match said(project, &garment) {
+            Ok(said) => said,
+            Err(error) => return studio.notices.failed(error),
+        };
+        let (title, path) = (project.garment.name(), file.to_owned());
+        let name = file.display().to_string();
+        let write = move |progress: &amc_core::Progress<'_>| {
+            tech_sheet::save(&title, garment, &said, &path, progress)
+        };
+        self.saving.push((name.clone(), studio.jobs.start(texts::saving(&name), write)));
+    }
+
+    fn update(&mut self, studio: &mut Context<'_>) {
+        self.saving.retain(|(name, job)| match job.poll() {
+            None => true,
+            Some(result) => {
+                match result {
+                    Ok(()) => studio.notices.done(texts::saved(name)),
+                    Err(error) => studio.notices.failed(error),
+                }
+                false
+            }
+        });
+        let Some(garment) = &studio.stage.garment else {
+            (self.sheet, self.laying_out) = (None, None);
+            return;
+        };
+        let is_new = |known: Option<&Arc<Garment>>| known.is_none_or(|known| !Arc::ptr_eq(known, garment));
+        let laid_out = self.sheet.as_ref().map(|sheet| &sheet.garment);
+        let coming = self.laying_out.as_ref().map(|(garment, _)| garment);
+        if is_new(laid_out) && is_new(coming) {
+            self.sheet = None;
+            let of = Arc::clone(garment);
+            let job = studio.jobs.start(texts::OPENING, move |progress| Sheet::new(of, progress));
+            self.laying_out = Some((Arc::clone(garment), job));
+        }
+        if let Some(result) = self.laying_out.as_ref().and_then(|(_, job)| job.poll()) {
+            self.laying_out = None;
+            (self.pattern, self.given.picked_edge) = (PatternPane::default(), None);
+            match result {
+                Ok(sheet) => self.sheet = Some(sheet),
+                Err(error) => studio.notices.failed(error),
+            }
+        }
+    }
+
+    fn panes(&self) -> Vec<Pane> {
+        vec![
+            Pane { id: "pattern", title: texts::PATTERN, place: Place::Beside },
+            Pane { id: "grain", title: texts::GRAIN, place: Place::Right },
+        ]
+    }
+
+    fn show(&mut self, pane: &str, ui: &mut egui::Ui, studio: &mut Context<'_>) {
+        let Some(sheet) = &self.sheet else {
+            ui.weak(texts::OPENING);
+            return;
+        };
+        if sheet.pieces.is_empty() {
+            ui.label(texts::NO_UVS);
+        } else if pane == "pattern" {
+            let marked = self.under_pointer.1;
+            self.under_pointer.0 = self.pattern.show(ui, sheet, &mut self.given.picked_edge, marked, studio);
+        } else if let Some(clicked) = self.grain.show(ui, sheet, &self.given, studio) {
+            self.run(clicked, studio);
+        }
+    }
+
+    fn overlay(&mut self, painter: &Painter, view: &ViewportView<'_>, studio: &mut Context<'_>) {
+        let Some(sheet) = &self.sheet else { return };
+        overlay::arrows(painter, view, sheet, studio);
+        if let Some(place) = &self.under_pointer.0 {
+            overlay::mark(painter, view, &sheet.garment, place);
+        }
+        let pointer = painter.ctx().input(|input| input.pointer.hover_pos());
+        let within = pointer.filter(|at| view.rect.contains(*at));
+        self.under_pointer.1 = within.and_then(|at| overlay::place_at(view, at, &sheet.garment));
+    }
+}
+
+/// Asks where the tech sheet is to be saved.
+fn ask(studio: &mut Context<'_>) {
+    const KINDS: &[FileKind] = &[
+        FileKind { name: texts::PDF, suffixes: &["pdf"] },
+        FileKind { name: texts::SVG, suffixes: &["svg"] },
+        FileKind { name: texts::DXF, suffixes: &["dxf"] },
+    ];
+    let name = format!("{}.pdf", studio.document.project().garment.name());
+    studio.ask_where(Ask { id: "save-sheet", title: texts::SAVE_TITLE.to_owned(), name, kinds: KINDS });
+}
+
+/// What a project says of the garment's panels.
+fn said(project: &Project, garment: &Garment) -> amc_core::Result<Vec<Said>> {
+    let assignments = Assignments::of(project)?;
+    let of = |panel: &amc_core::mesh::Panel| Said {
+        direction: grain::direction(panel, project),
+        fabric: project
+            .look_of(panel)
+            .fabric
+            .and_then(|id| project.fabric(id))
+            .map(|fabric| fabric.name.clone()),
+        assignment: assignments.panel(&panel.id),
+    };
+    Ok(garment.panels.iter().map(of).collect())
+}
