@@ -7,7 +7,7 @@ use amc_core::{Error, Result};
 use glam::DVec3;
 
 use crate::cut::{CutGarment, cut};
-use crate::drape::Draped;
+use crate::drape::{Draped, edge_length_for};
 use crate::pattern::Pattern;
 
 /// A garment of the collection.
@@ -17,7 +17,7 @@ pub struct Entry {
     pub name: &'static str,
     /// Its pattern, JSON.
     pattern: &'static str,
-    /// Length of the triangles' edges in the file kept, metres.
+    /// Length of the triangles' edges, metres: those of the file kept, unless it was changed.
     pub edge_length: f64,
 }
 
@@ -62,7 +62,15 @@ impl Entry {
         Pattern::from_json(self.pattern).map_err(|error| error.in_file(Path::new(self.name)))
     }
 
-    /// Its pieces as the file kept has them.
+    /// The same garment in about so many triangles.
+    ///
+    /// # Errors
+    /// As [`edge_length_for`].
+    pub fn with_triangles(self, triangles: usize) -> Result<Self> {
+        Ok(Self { edge_length: edge_length_for(&self.pattern()?, triangles)?, ..self })
+    }
+
+    /// Its pieces as its file has them.
     ///
     /// # Errors
     /// As [`cut()`].

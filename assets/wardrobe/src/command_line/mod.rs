@@ -8,7 +8,9 @@ mod table;
 
 use std::process::ExitCode;
 
+use amc_core::Result;
 use clap::{Parser, Subcommand};
+use wardrobe::collection::{COLLECTION, Entry};
 
 /// Makes the garments that AMC Studio ships: pattern pieces cut flat, sewn and draped.
 #[derive(Debug, Parser)]
@@ -43,5 +45,27 @@ pub(crate) fn run() -> ExitCode {
             progress::say(&format!("wardrobe: {error}"));
             ExitCode::FAILURE
         }
+    }
+}
+
+/// Which garments of the collection are meant, and how fine.
+#[derive(Debug, clap::Args)]
+struct Selection {
+    /// Only these, by name.
+    #[arg(long)]
+    only: Vec<String>,
+    /// About how many triangles each has, in place of those of the files kept: fine ones, for benchmarks.
+    #[arg(long)]
+    triangles: Option<usize>,
+}
+
+impl Selection {
+    fn entries(&self) -> Result<Vec<Entry>> {
+        for name in &self.only {
+            Entry::named(name)?;
+        }
+        let wanted = |entry: &&Entry| self.only.is_empty() || self.only.iter().any(|name| name == entry.name);
+        let entry = |entry: &Entry| self.triangles.map_or(Ok(*entry), |count| entry.with_triangles(count));
+        COLLECTION.iter().filter(wanted).map(entry).collect()
     }
 }

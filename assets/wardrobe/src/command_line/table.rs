@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use amc_core::Result;
 use wardrobe::body::Body;
-use wardrobe::collection::COLLECTION;
 use wardrobe::drape::{self, Energy, Options, Rest};
 use wardrobe::measure::{self, Figures};
 
+use super::Selection;
 use super::progress::with_progress;
 
 /// How long each garment is left lying, seconds.
@@ -20,12 +20,14 @@ const REST_HEAD: &str =
 pub(super) struct Arguments {
     /// Where the files are.
     folder: PathBuf,
+    #[command(flatten)]
+    selection: Selection,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let mut lines = vec![Figures::HEAD.to_owned()];
     let mut rests = vec![REST_HEAD.to_owned()];
-    for entry in &COLLECTION {
+    for entry in arguments.selection.entries()? {
         let (cut, draped) = entry.draped(&arguments.folder)?;
         let body = Body::new(cut.figure);
         lines.push(measure::measure(&cut, &draped, &body).row(entry.name));

@@ -56,21 +56,28 @@ impl<C: Acts> Coloured<C> {
         Self { constraints: sorted, colours, rest }
     }
 
-    /// Does `solve` to every constraint, colour by colour.
-    pub(super) fn for_each(&self, solve: impl Fn(&C) + Sync) {
+    /// Does `solve` to every constraint, colour by colour; it gets the constraint's index in [`Self::all`] too.
+    pub(super) fn for_each(&self, solve: impl Fn(usize, &C) + Sync) {
         for colour in &self.colours {
-            let constraints = &self.constraints[colour.clone()];
+            let (start, constraints) = (colour.start, &self.constraints[colour.clone()]);
             if constraints.len() < WORTH_THREADS {
-                constraints.iter().for_each(&solve);
+                solve_in_turn(start, constraints, &solve);
             } else {
-                constraints.par_chunks(CHUNK).for_each(|chunk| chunk.iter().for_each(&solve));
+                let chunks = constraints.par_chunks(CHUNK).enumerate();
+                chunks.for_each(|(chunk, constraints)| {
+                    solve_in_turn(start + chunk * CHUNK, constraints, &solve);
+                });
             }
         }
-        self.constraints[self.rest..].iter().for_each(&solve);
+        solve_in_turn(self.rest, &self.constraints[self.rest..], &solve);
     }
 
     /// All constraints.
     pub(super) fn all(&self) -> &[C] {
         &self.constraints
     }
+}
+
+fn solve_in_turn<C>(start: usize, constraints: &[C], solve: &impl Fn(usize, &C)) {
+    constraints.iter().enumerate().for_each(|(index, constraint)| solve(start + index, constraint));
 }

@@ -40,23 +40,39 @@ impl CellGrid {
         self.in_cell(cell_of(place, self.cell))
     }
 
-    /// The pairs of overlapping boxes of which `index` is the first, each once. `boxes` as they were entered.
-    pub(crate) fn overlapping(&self, index: u32, boxes: &[(DVec3, DVec3)]) -> impl Iterator<Item = u32> {
+    /// Visits the boxes that overlap the one of `index` and come after it, each once. `boxes` as they were entered.
+    pub(crate) fn overlapping(&self, index: u32, boxes: &[(DVec3, DVec3)], mut visit: impl FnMut(u32)) {
         let (low, high) = boxes[index as usize];
-        let first_of_both = move |place: IVec3, other: u32| {
-            let (other_low, other_high) = boxes[other as usize];
-            let overlap = low.cmple(other_high).all() && high.cmpge(other_low).all();
-            overlap && cell_of(low.max(other_low), self.cell) == place
-        };
-        cells(low, high, self.cell).flat_map(move |place| {
-            self.in_cell(place).filter(move |other| *other > index && first_of_both(place, *other))
-        })
+        let (first, last) = (cell_of(low, self.cell), cell_of(high, self.cell));
+        for z in first.z..=last.z {
+            for y in first.y..=last.y {
+                for x in first.x..=last.x {
+                    let place = IVec3::new(x, y, z);
+                    let bucket = self.bucket(place);
+                    let after = bucket.partition_point(|entry| entry.1 <= index);
+                    for (entered, other) in &bucket[after..] {
+                        if *entered != place {
+                            continue;
+                        }
+                        let (other_low, other_high) = boxes[*other as usize];
+                        let overlap = low.cmple(other_high).all() && high.cmpge(other_low).all();
+                        // Both may lie in several cells: the first that they share counts.
+                        if overlap && cell_of(low.max(other_low), self.cell) == place {
+                            visit(*other);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    fn bucket(&self, place: IVec3) -> &[(IVec3, u32)] {
+        let bucket = bucket(place, self.mask);
+        &self.entries[self.starts[bucket] as usize..self.starts[bucket + 1] as usize]
     }
 
     fn in_cell(&self, place: IVec3) -> impl Iterator<Item = u32> {
-        let bucket = bucket(place, self.mask);
-        let entries = &self.entries[self.starts[bucket] as usize..self.starts[bucket + 1] as usize];
-        entries.iter().filter(move |entry| entry.0 == place).map(|entry| entry.1)
+        self.bucket(place).iter().filter(move |entry| entry.0 == place).map(|entry| entry.1)
     }
 }
 

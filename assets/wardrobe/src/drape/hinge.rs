@@ -16,7 +16,15 @@ pub(super) struct Hinge {
     rest: f64,
     /// Newton metres.
     stiffness: f64,
+    /// How far the cloth's own friction gives before it slips, radians.
+    give: f64,
 }
+
+/// Cloth does not bend to and fro along one curve: its yarns rub on each other, and hold a moment of about the bending stiffness times
+/// this curvature, 1/metres (the hysteresis 2HB that fabric tests give, over 2B, is of this order for shirtings).
+const HELD_CURVATURE: f64 = 37.0;
+/// How many times stiffer than the bending itself the yarns hold on before they slip.
+const HOLD: f64 = 20.0;
 
 impl Hinge {
     /// A hinge whose lengths are those of the flat cloth: the edge's `length`, metres, the two triangles' `area` together, square
@@ -25,12 +33,15 @@ impl Hinge {
     /// The stiffness is `bending length^2 / area`. On equilateral triangles bent round a cylinder that gives the plate's energy
     /// `bending/2 curvature^2` per area, whichever way the cylinder's axis lies (averaged over the three edges).
     pub(super) fn new(corners: [u32; 4], length: f64, area: f64, bending: f64, rest: f64) -> Self {
-        Self { corners, rest, stiffness: bending * length * length / area }
+        // Two thirds of the mean height lie between the two triangles' centres.
+        let give = HELD_CURVATURE / HOLD * 2.0 * area / (3.0 * length);
+        Self { corners, rest, stiffness: bending * length * length / area, give }
     }
 
-    /// One pass (XPBD, as the membrane's); the dihedral angle's gradient after Bridson, Marino and Fedkiw 2003.
+    /// One pass (XPBD, as the membrane's); the dihedral angle's gradient after Bridson, Marino and Fedkiw 2003. `held`: at which angle from
+    /// its rest the cloth's own friction holds it, radians.
     #[inline]
-    pub(super) fn solve(&self, points: &Points, inverse_mass: &[f64], step: f64) {
+    pub(super) fn solve(&self, points: &Points, inverse_mass: &[f64], step: f64, held: Option<f64>) {
         let x = self.corners.map(|corner| points.get(corner));
         let edge = x[1] - x[0];
         let first = edge.cross(x[2] - x[0]);
@@ -42,6 +53,10 @@ impl Hinge {
         }
         let length = length2.sqrt();
         let wrong = turn(first.cross(second).dot(edge) / length, first.dot(second), self.rest);
+        let (wrong, stiffness) = match held {
+            None => (wrong, self.stiffness),
+            Some(held) => (wrong - held * (HOLD / (1.0 + HOLD)), self.stiffness * (1.0 + HOLD)),
+        };
         let far_first = first * (-length / first2);
         let far_second = second * (-length / second2);
         let (foot_first, foot_second) =
@@ -54,21 +69,32 @@ impl Hinge {
         ];
         let w = self.corners.map(|corner| inverse_mass[corner as usize]);
         let weight: f64 = w.iter().zip(&gradients).map(|(w, g)| w * g.length_squared()).sum();
-        let multiplier = -wrong / (weight + 1.0 / (self.stiffness * step * step));
+        let multiplier = -wrong / (weight + 1.0 / (stiffness * step * step));
         for i in 0..4 {
             points.set(self.corners[i], x[i] + gradients[i] * (multiplier * w[i]));
         }
     }
 
-    /// Elastic energy, joules.
-    pub(super) fn energy(&self, points: &Points) -> f64 {
+    /// How far it is from its rest, radians.
+    fn wrong(&self, points: &Points) -> f64 {
         let x = self.corners.map(|corner| points.get(corner));
         let edge = x[1] - x[0];
         let first = edge.cross(x[2] - x[0]);
         let second = (x[3] - x[0]).cross(edge);
         let direction: DVec3 = edge.normalize_or_zero();
-        let wrong = turn(first.cross(second).dot(direction), first.dot(second), self.rest);
+        turn(first.cross(second).dot(direction), first.dot(second), self.rest)
+    }
+
+    /// Elastic energy, joules.
+    pub(super) fn energy(&self, points: &Points) -> f64 {
+        let wrong = self.wrong(points);
         0.5 * self.stiffness * wrong * wrong
+    }
+
+    /// Where the cloth's own friction holds it now, as [`Self::solve`] wants it: as it is, or where it did `before` unless that has slipped.
+    pub(super) fn held(&self, points: &Points, before: Option<f64>) -> f64 {
+        let wrong = self.wrong(points);
+        before.map_or(wrong, |held| held.clamp(wrong - self.give, wrong + self.give))
     }
 }
 

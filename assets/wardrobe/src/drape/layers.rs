@@ -169,9 +169,9 @@ impl Layers {
         let this = &*self;
         let of_triangle = |index: usize| {
             let mut near = Near::default();
-            for other in grid.overlapping(index as u32, &boxes) {
+            grid.overlapping(index as u32, &boxes, |other| {
                 this.add(&this.triangles[index], &this.triangles[other as usize], places, range, &mut near);
-            }
+            });
             near
         };
         let found: Vec<Near> =
@@ -196,19 +196,23 @@ impl Layers {
             );
             tangled = near.tangles.len() > before;
         }
-        let faces = [(one, other), (other, one)].into_iter();
-        let faces = faces.flat_map(|(from, to)| {
-            from.own_corners().filter_map(|particle| self.face(particle, to.corners, places, range))
-        });
-        let edges = one.own_edges().flat_map(|first| {
-            other.own_edges().filter_map(move |second| self.crossing(first, second, places, range))
-        });
         // Where two triangles have gone through each other, who does not know its side from before does not know it now:
         // holding it there would only pull the tangle tighter.
-        near.pairs.extend(faces.chain(edges).filter(|pair| !tangled || self.crossed.holds(pair)));
+        let mut push = |pair: Option<Pair>| {
+            near.pairs.extend(pair.filter(|pair| !tangled || self.crossed.holds(pair)));
+        };
+        for (from, to) in [(one, other), (other, one)] {
+            from.own_corners().for_each(|corner| push(self.face(corner, to.corners, places, range)));
+        }
+        for first in one.own_edges() {
+            other.own_edges().for_each(|second| push(self.crossing(first, second, places, range)));
+        }
     }
 
     fn face(&self, particle: u32, corners: [u32; 3], places: &[DVec3], range: f64) -> Option<Pair> {
+        if self.share(&[particle], &corners) {
+            return None;
+        }
         let [a, b, c] = corners.map(|corner| places[corner as usize]);
         let (place, grow) = (places[particle as usize], DVec3::splat(range));
         if place.cmplt(a.min(b).min(c) - grow).any() || place.cmpgt(a.max(b).max(c) + grow).any() {
@@ -216,7 +220,7 @@ impl Layers {
         }
         let normal = (b - a).cross(c - a);
         let (height, length2) = ((place - a).dot(normal), normal.length_squared());
-        if height * height > range * range * length2 || self.share(&[particle], &corners) {
+        if height * height > range * range * length2 || is_beside(place, [a, b, c], normal, range) {
             return None;
         }
         let apart = self.apart(&[particle], &corners, height.abs() / length2.sqrt().max(1e-12))?;
@@ -247,6 +251,9 @@ impl Layers {
     }
 
     fn crossing(&self, first: [u32; 2], second: [u32; 2], places: &[DVec3], range: f64) -> Option<Pair> {
+        if self.share(&first, &second) {
+            return None;
+        }
         let [a, b] = first.map(|end| places[end as usize]);
         let [c, d] = second.map(|end| places[end as usize]);
         if (a.min(b) - DVec3::splat(range)).cmpgt(c.max(d)).any()
@@ -256,7 +263,7 @@ impl Layers {
         }
         let (s, t) = nearest_on_edges(a, b, c, d)?;
         let between = a.lerp(b, s) - c.lerp(d, t);
-        if between.length_squared() > range * range || self.share(&first, &second) {
+        if between.length_squared() > range * range {
             return None;
         }
         let apart = self.apart(&first, &second, between.length())?;
@@ -419,6 +426,16 @@ fn touch(pair: &Pair, points: &Points) -> Option<Touch> {
             Some(Touch { particles, weights: [1.0 - s, s, t - 1.0, -t], normal, depth })
         }
     }
+}
+
+/// Whether a place lies farther than `range` from a triangle, seen along its `normal`.
+fn is_beside(place: DVec3, [a, b, c]: [DVec3; 3], normal: DVec3, range: f64) -> bool {
+    let outside = |start: DVec3, end: DVec3| {
+        let outwards = (end - start).cross(normal);
+        let distance = (place - start).dot(outwards);
+        distance > 0.0 && distance * distance > range * range * outwards.length_squared()
+    };
+    outside(a, b) || outside(b, c) || outside(c, a)
 }
 
 /// Barycentric coordinates of a place's projection on a triangle's plane.

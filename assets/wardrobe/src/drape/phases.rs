@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::layers::Layers;
 use super::model::Model;
-use super::solver::{Conditions, Energy, Solver, Thread};
+use super::solver::{Conditions, Energy, Pace, Solver, Thread};
 use super::{Draped, place, sewing};
 use crate::body::Body;
 use crate::cut::{At, CutGarment, JoinKind};
@@ -26,6 +26,9 @@ pub struct Options {
     pub falling: f64,
     /// How long a finer cloth may take to come to rest from where the coarser one did, seconds per metre of its edges.
     pub relaxing: f64,
+    /// Cloth with shorter edges, metres, is fine: it only smooths the folds in which the coarser one came to rest, and its own friction
+    /// holds them.
+    pub fine: f64,
     /// At rest no particle is faster, metres per second.
     pub rest_speed: f64,
     /// Metres per second squared.
@@ -41,6 +44,7 @@ impl Default for Options {
             sewing: 0.6,
             falling: 6.0,
             relaxing: 500.0,
+            fine: 0.008,
             rest_speed: 0.005,
             gravity: 9.81,
         }
@@ -77,6 +81,12 @@ const STILL_FRAMES: usize = 6;
 /// angular frequency ends that soonest.
 const SETTLING_DRAG: f64 = 10.0;
 const DRAG: f64 = 5.0;
+/// Substeps in which fine cloth smooths the creases between the coarser one's triangles, before its own friction would hold them, and the
+/// drag meanwhile.
+const SMOOTHING: usize = 1200;
+const SMOOTHING_DRAG: f64 = 40.0;
+/// Drag once fine cloth is held by its own friction: what is left are short, quick waves.
+const HELD_DRAG: f64 = 20.0;
 /// How much stretchier the cloth is while it is sewn.
 const SEWING_SOFTNESS: f64 = 20.0;
 /// Seconds in which gravity comes and softness goes after sewing.
@@ -105,6 +115,10 @@ pub(super) fn relax(
     let mut start = start.to_vec();
     start.iter_mut().flatten().for_each(|place| place::push_out(place, body, options.margin));
     settle_and_drape(garment, &start, body, options, 1.0, progress)
+}
+
+fn is_fine(model: &Model, options: &Options) -> bool {
+    model.edge_length < options.fine
 }
 
 fn pairs(garment: &CutGarment, kind: JoinKind) -> impl Iterator<Item = (At, At)> {
@@ -161,6 +175,10 @@ pub(super) fn linger(
 ) -> Result<Rest> {
     let model = Model::new(garment, &sewn_pairs(garment));
     let mut solver = sewn(&model, garment, &draped.positions, body, options);
+    if is_fine(&model, options) {
+        solver.pace = Pace::SLOW;
+        solver.hold_bends();
+    }
     let mut rest = Rest { energies: vec![solver.energy(options.gravity)], ..Rest::default() };
     let lying = Phase { stage: "lying", seconds, until_still: false };
     lying.run(&mut solver, options, &mut rest, |_| conditions(options), progress)?;
@@ -180,6 +198,7 @@ fn settle_and_drape(
     let mut solver = sewn(&model, garment, start, body, options);
     let mut rest = Rest::default();
     let coarsest = softness > 1.0;
+    let fine = !coarsest && is_fine(&model, options);
     if coarsest {
         let settling = Phase { stage: "settling", seconds: SETTLING, until_still: false };
         let ramp = |share: f64| Conditions {
@@ -189,13 +208,22 @@ fn settle_and_drape(
         };
         settling.run(&mut solver, options, &mut rest, ramp, progress)?;
     }
+    if fine {
+        solver.pace = Pace::SLOW;
+        let seconds = SMOOTHING as f64 * solver.step;
+        let smoothing = Phase { stage: "smoothing", seconds, until_still: false };
+        let thick_air = Conditions { drag: SMOOTHING_DRAG, ..conditions(options) };
+        smoothing.run(&mut solver, options, &mut rest, |_| thick_air, progress)?;
+        solver.hold_bends();
+    }
     let (stage, seconds) = if coarsest {
         ("falling", options.falling)
     } else {
         ("coming to rest, finer", options.relaxing * model.edge_length)
     };
+    let conditions = Conditions { drag: if fine { HELD_DRAG } else { DRAG }, ..conditions(options) };
     let falling = Phase { stage, seconds, until_still: true };
-    falling.run(&mut solver, options, &mut rest, |_| conditions(options), progress)?;
+    falling.run(&mut solver, options, &mut rest, |_| conditions, progress)?;
     Ok((Draped { positions: model.scatter(&solver.points.to_vec()) }, rest))
 }
 
@@ -242,6 +270,7 @@ impl Phase {
             check(solver)?;
             rest.fastest = solver.farthest_from(&before) / (frame as f64 * solver.step);
             before = solver.points.to_vec();
+            solver.slip_bends();
             rest.energies.push(solver.energy(options.gravity));
             still_frames = if rest.is_still(options) { still_frames + 1 } else { 0 };
             if self.until_still && still_frames >= STILL_FRAMES {

@@ -6,6 +6,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::hinge::Hinge;
 use super::layers::Layers;
 use super::model::Model;
 use super::points::Points;
@@ -13,18 +14,32 @@ use crate::body::Body;
 
 /// Particles that a thread takes at a time.
 const CHUNK: usize = 1024;
-/// Contacts are looked for anew once a particle has moved as far as the fastest will in so many substeps, but at least and at most so many
-/// mean edges, and at most so many metres.
+/// Contacts are looked for anew once a particle has moved as far as the fastest will in so many substeps, but at least as the pace says, and
+/// at most so many mean edges and so many metres.
 const FREE_SUBSTEPS: f64 = 12.0;
-const LEAST_FREE_PATH: f64 = 0.04;
 const MOST_FREE_PATH: f64 = 0.25;
 const FARTHEST_FREE_PATH: f64 = 0.004;
 /// As long as the cloth is tangled a search is good for so many substeps.
 const TANGLED_SUBSTEPS: usize = 16;
-/// No particle is faster, metres per second.
-const MOST_SPEED: f64 = 1.5;
 /// A particle farther from the origin has been thrown out by a fault, metres.
 const FARTHEST: f64 = 50.0;
+
+/// How fast cloth may move, and how far before contacts are looked for anew.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pace {
+    /// No particle is faster, metres per second.
+    most_speed: f64,
+    /// Mean edges.
+    least_free_path: f64,
+}
+
+impl Pace {
+    /// Of cloth that falls into its place.
+    const QUICK: Self = Self { most_speed: 1.5, least_free_path: 0.04 };
+    /// Of fine cloth that is in its place but for its folds: searches, which take it as long as ten substeps, become rare, and still
+    /// find no flat cloth's neighbours.
+    pub(super) const SLOW: Self = Self { most_speed: 0.075, least_free_path: 0.15 };
+}
 
 /// How the world acts in a phase.
 #[derive(Debug, Clone, Copy)]
@@ -88,6 +103,9 @@ pub(super) struct Solver<'a> {
     planes: Vec<Option<Plane>>,
     layers: Layers,
     pub(super) threads: Vec<Thread>,
+    /// Per hinge, where the cloth's own friction holds it; empty as long as that is left out.
+    held: Vec<f64>,
+    pub(super) pace: Pace,
     /// Seconds per substep.
     pub(super) step: f64,
     /// Places are no longer numbers that mean something.
@@ -117,6 +135,8 @@ impl<'a> Solver<'a> {
             planes: Vec::new(),
             layers,
             threads: Vec::new(),
+            held: Vec::new(),
+            pace: Pace::QUICK,
             step,
             blown_up: false,
         };
@@ -135,10 +155,10 @@ impl<'a> Solver<'a> {
             self.search();
         }
         let (points, inverse_mass, step) = (&self.points, &self.model.inverse_mass, self.step);
-        self.model
-            .membranes
-            .for_each(|membrane| membrane.solve(points, inverse_mass, conditions.softness, step));
-        self.model.hinges.for_each(|hinge| hinge.solve(points, inverse_mass, step));
+        let membranes = &self.model.membranes;
+        membranes.for_each(|_, membrane| membrane.solve(points, inverse_mass, conditions.softness, step));
+        let held = |index: usize| self.held.get(index).copied();
+        self.model.hinges.for_each(|index, hinge| hinge.solve(points, inverse_mass, step, held(index)));
         for thread in &self.threads {
             thread.solve(points, inverse_mass);
         }
@@ -149,9 +169,24 @@ impl<'a> Solver<'a> {
         touches.iter().for_each(|touch| touch.calm(&mut self.velocities, &self.model.inverse_mass, tangled));
     }
 
+    /// Lets the cloth's own friction hold its bends as they are.
+    pub(super) fn hold_bends(&mut self) {
+        let held = |hinge: &Hinge| hinge.held(&self.points, None);
+        self.held = self.model.hinges.all().par_iter().with_min_len(CHUNK).map(held).collect();
+    }
+
+    /// Lets bends slip that have gone too far from where they are held. To be called now and then.
+    pub(super) fn slip_bends(&mut self) {
+        let points = &self.points;
+        let hinges = self.model.hinges.all().par_iter().with_min_len(CHUNK);
+        let held = self.held.par_iter_mut().zip(hinges);
+        held.for_each(|(held, hinge)| *held = hinge.held(points, Some(*held)));
+    }
+
     /// Moves by the velocity of the last substep, after gravity and drag.
     fn predict(&mut self, conditions: Conditions) {
         let step = self.step;
+        let most_speed = self.pace.most_speed;
         let kept = (-conditions.drag * step).exp();
         let (points, inverse_mass) = (&self.points, &self.model.inverse_mass);
         let chunks = self.velocities.par_chunks_mut(CHUNK).zip(self.before.par_chunks_mut(CHUNK)).enumerate();
@@ -164,7 +199,7 @@ impl<'a> Solver<'a> {
                     continue;
                 }
                 *velocity = ((*velocity - DVec3::Y * (conditions.gravity * step)) * kept)
-                    .clamp_length_max(MOST_SPEED);
+                    .clamp_length_max(most_speed);
                 *before = points.get(particle);
                 points.set(particle, *before + *velocity * step);
             }
@@ -190,7 +225,8 @@ impl<'a> Solver<'a> {
         }
         let edge = self.model.edge_length;
         let most = (MOST_FREE_PATH * edge).min(FARTHEST_FREE_PATH);
-        self.free_path = (FREE_SUBSTEPS * self.step * self.fastest()).max(LEAST_FREE_PATH * edge).min(most);
+        self.free_path =
+            (FREE_SUBSTEPS * self.step * self.fastest()).max(self.pace.least_free_path * edge).min(most);
         let (body, margin, reach) = (self.body, self.margin, self.margin + 1.5 * self.free_path);
         let plane = |place: &DVec3| {
             let (distance, normal) = body.surface(*place);

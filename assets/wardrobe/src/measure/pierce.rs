@@ -37,9 +37,9 @@ pub(super) fn pierced(sheets: &[Sheet<'_>]) -> Pierced {
     let grid = CellGrid::new(&boxes, (1.5 * size / boxes.len().max(1) as f64).max(1e-4));
     let of_triangle = |index: usize| {
         let mut spots = Vec::new();
-        for other in grid.overlapping(index as u32, &boxes) {
+        grid.overlapping(index as u32, &boxes, |other| {
             soup.spots(&soup.triangles[index], &soup.triangles[other as usize], &mut spots);
-        }
+        });
         spots
     };
     let spots: Vec<DVec3> =

@@ -109,3 +109,36 @@ fn a_sheet_that_falls_on_another_stays_above_it() {
     let highest = end[lower..].iter().map(|place| place.y - 2.0).fold(f64::NEG_INFINITY, f64::max);
     assert!(lowest > 0.002 && highest < 0.004, "{lowest} to {highest} m above");
 }
+
+/// A strip that sticks out from a table and weighs `d` hangs down by `d g L^4 / (8 B)` at its end; its own friction holds a moment of
+/// `37 B` per width, so that it sticks out as straight as it did where its weight's `d g L^2 / 2` is less.
+#[test]
+fn a_short_strip_is_held_straight_by_its_own_friction_and_a_long_one_is_not() {
+    let bent = |length: f64, held: bool| {
+        let garment = strip(0.02, length, 0.005);
+        let mut model = Model::new(&garment, &[]);
+        let root = garment.pieces[0].flat.iter().map(|flat| flat.y).fold(f64::NEG_INFINITY, f64::max) - 0.006;
+        for (vertex, flat) in garment.pieces[0].flat.iter().enumerate() {
+            if flat.y > root {
+                model.inverse_mass[vertex] = 0.0;
+            }
+        }
+        let start = places(&garment, |u, v| DVec3::new(3.0 + u, 2.0, -v));
+        let body = Body::new(Figure::Ball);
+        let mut solver = Solver::new(&model, &body, &start, 0.0, layers(&model), 2e-4);
+        if held {
+            solver.hold_bends();
+        }
+        for substep in 0..2500 {
+            solver.advance(Conditions { gravity: 9.81, drag: 20.0, softness: 1.0 });
+            if substep % 50 == 0 {
+                solver.slip_bends();
+            }
+        }
+        let lowest = solver.points.to_vec().iter().map(|place| place.y).fold(f64::INFINITY, f64::min);
+        (2.0 - lowest) / length
+    };
+    let (short, long) = (0.018, 0.07);
+    assert!(bent(short, true) < 0.25 * bent(short, false), "{} {}", bent(short, true), bent(short, false));
+    assert!(bent(long, true) > 0.7 * bent(long, false), "{} {}", bent(long, true), bent(long, false));
+}
