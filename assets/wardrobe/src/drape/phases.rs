@@ -164,7 +164,8 @@ fn sewn<'a>(
     solver
 }
 
-/// Leaves a draped garment lying for some time, under the conditions in which it came to rest.
+/// Leaves a draped garment lying for some time, under the conditions in which it came to rest. Places do not tell how a fine one's own
+/// friction holds it: that takes up its load first.
 pub(super) fn linger(
     garment: &CutGarment,
     draped: &Draped,
@@ -177,7 +178,9 @@ pub(super) fn linger(
     let mut solver = sewn(&model, garment, &draped.positions, body, options);
     if is_fine(&model, options) {
         solver.pace = Pace::SLOW;
-        solver.hold_bends();
+        let seconds = options.relaxing * model.edge_length;
+        hold(&mut solver, options, "taking hold", seconds, &mut Rest::default(), progress)?;
+        solver.stop();
     }
     let mut rest = Rest { energies: vec![solver.energy(options.gravity)], ..Rest::default() };
     let lying = Phase { stage: "lying", seconds, until_still: false };
@@ -214,17 +217,33 @@ fn settle_and_drape(
         let smoothing = Phase { stage: "smoothing", seconds, until_still: false };
         let thick_air = Conditions { drag: SMOOTHING_DRAG, ..conditions(options) };
         smoothing.run(&mut solver, options, &mut rest, |_| thick_air, progress)?;
-        solver.hold_bends();
     }
     let (stage, seconds) = if coarsest {
         ("falling", options.falling)
     } else {
         ("coming to rest, finer", options.relaxing * model.edge_length)
     };
-    let conditions = Conditions { drag: if fine { HELD_DRAG } else { DRAG }, ..conditions(options) };
-    let falling = Phase { stage, seconds, until_still: true };
-    falling.run(&mut solver, options, &mut rest, |_| conditions, progress)?;
+    if fine {
+        hold(&mut solver, options, stage, seconds, &mut rest, progress)?;
+    } else {
+        let falling = Phase { stage, seconds, until_still: true };
+        falling.run(&mut solver, options, &mut rest, |_| conditions(options), progress)?;
+    }
     Ok((Draped { positions: model.scatter(&solver.points.to_vec()) }, rest))
+}
+
+/// Lets fine cloth come to rest by its own friction, which begins to hold its bends as they are now.
+fn hold(
+    solver: &mut Solver<'_>,
+    options: &Options,
+    stage: &'static str,
+    seconds: f64,
+    rest: &mut Rest,
+    progress: &Progress<'_>,
+) -> Result<()> {
+    solver.hold_bends();
+    let conditions = Conditions { drag: HELD_DRAG, ..conditions(options) };
+    Phase { stage, seconds, until_still: true }.run(solver, options, rest, |_| conditions, progress)
 }
 
 /// How the world is for a garment that is sewn.

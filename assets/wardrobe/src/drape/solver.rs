@@ -169,6 +169,11 @@ impl<'a> Solver<'a> {
         touches.iter().for_each(|touch| touch.calm(&mut self.velocities, &self.model.inverse_mass, tangled));
     }
 
+    /// Takes all motion away.
+    pub(super) fn stop(&mut self) {
+        self.velocities.fill(DVec3::ZERO);
+    }
+
     /// Lets the cloth's own friction hold its bends as they are.
     pub(super) fn hold_bends(&mut self) {
         let held = |hinge: &Hinge| hinge.held(&self.points, None);

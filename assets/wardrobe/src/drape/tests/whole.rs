@@ -5,7 +5,7 @@ use amc_core::Progress;
 use super::cloths;
 use crate::body::{Body, Figure};
 use crate::cut::CutGarment;
-use crate::drape::{Draped, Options, Rest, drape};
+use crate::drape::{Draped, Options, Rest, drape, linger};
 use crate::measure::measure;
 
 fn draped(levels: &[CutGarment]) -> (Draped, Rest) {
@@ -43,6 +43,19 @@ fn a_square_lies_evenly_on_the_ball_and_comes_to_rest() {
     let spread =
         quiet.iter().copied().fold(0.0, f64::max) - quiet.iter().copied().fold(f64::INFINITY, f64::min);
     assert!(spread < 0.02 * (first - last), "the energy is not level: {quiet:?}");
+}
+
+#[test]
+fn fine_cloth_lies_still_in_ordinary_air_from_standing() {
+    let levels = [cloths::square(0.8, 0.09), cloths::square(0.8, 0.045)];
+    let options = Options { fine: 0.06, ..Options::default() };
+    let body = Body::new(Figure::Ball);
+    let (draped, rest) = drape(&levels, &body, &options, &Progress::none()).unwrap();
+    assert!(rest.is_still(&options), "{} m/s", rest.fastest);
+    let nearest = draped.positions[0].iter().map(|place| body.distance(*place)).fold(f64::INFINITY, f64::min);
+    assert!(nearest > 0.0015, "{nearest} m off the ball");
+    let lying = linger(&levels[1], &draped, &body, 0.5, &options, &Progress::none()).unwrap();
+    assert!(lying.is_still(&options), "{} m/s", lying.fastest);
 }
 
 #[test]
