@@ -9,6 +9,7 @@ mod coarse;
 mod refine;
 
 use super::cone::{Lens, Sight};
+use crate::color::LINEAR_FROM_SRGB8;
 use crate::image::decode::{LINEAR_FROM_SRGB16, Raster, Samples};
 use crate::{Error, Result};
 
@@ -49,6 +50,9 @@ pub(super) fn find(pictures: &[&Raster], lens: Lens) -> Result<Found> {
 /// The mean of some pictures, reckoned where it is asked for.
 pub(super) struct Mean<'a> {
     pictures: &'a [&'a Raster],
+    /// The pixels of all pictures, where all are 8-bit red, green and blue, as nearly always: they are read a million
+    /// times.
+    plain: Option<Vec<&'a [[u8; 3]]>>,
     /// Whether coverage tells the ball from the background.
     covered: bool,
 }
@@ -56,7 +60,7 @@ pub(super) struct Mean<'a> {
 impl<'a> Mean<'a> {
     pub(super) fn new(pictures: &'a [&'a Raster]) -> Self {
         let covered = pictures.iter().all(|picture| picture.has_alpha() && has_holes(picture));
-        Self { pictures, covered }
+        Self { pictures, plain: pictures.iter().map(|picture| plain(picture)).collect(), covered }
     }
 
     fn width(&self) -> usize {
@@ -70,11 +74,21 @@ impl<'a> Mean<'a> {
     /// Linear red, green and blue; or three times the coverage, where the pictures have it.
     fn pixel(&self, x: usize, y: usize) -> [f32; 3] {
         let mut sum = [0.0; 3];
-        for &picture in self.pictures {
-            let [r, g, b, a] = pixel(picture, x, y);
-            let value = if self.covered { [a; 3] } else { [r, g, b] };
+        let mut add = |value: [f32; 3]| {
             for (sum, value) in sum.iter_mut().zip(value) {
                 *sum += value;
+            }
+        };
+        if let Some(pictures) = &self.plain {
+            let linear = &*LINEAR_FROM_SRGB8;
+            let at = y * self.width() + x;
+            for pixel in pictures.iter().filter_map(|pixels| pixels.get(at)) {
+                add(pixel.map(|value| linear[usize::from(value)]));
+            }
+        } else {
+            for &picture in self.pictures {
+                let [r, g, b, a] = pixel(picture, x, y);
+                add(if self.covered { [a; 3] } else { [r, g, b] });
             }
         }
         sum.map(|value| value / self.pictures.len().max(1) as f32)
@@ -99,6 +113,14 @@ impl<'a> Mean<'a> {
     }
 }
 
+/// The pixels of a picture of 8-bit red, green and blue.
+fn plain(picture: &Raster) -> Option<&[[u8; 3]]> {
+    match picture.samples() {
+        Samples::U8(samples) if picture.channels() == 3 => Some(samples.as_chunks().0),
+        _ => None,
+    }
+}
+
 /// Even in steps that are seen: linear light is not.
 fn perceived(linear: f32) -> f32 {
     linear.max(0.0).sqrt()
@@ -109,11 +131,14 @@ fn pixel(picture: &Raster, x: usize, y: usize) -> [f32; 4] {
     let channels = picture.channels() as usize;
     let start = (y * picture.width() as usize + x) * channels;
     match picture.samples() {
-        Samples::U8(samples) => spread(
-            samples.get(start..start + channels),
-            |value| crate::color::LINEAR_FROM_SRGB8[usize::from(value)],
-            |alpha| f32::from(alpha) / 255.0,
-        ),
+        Samples::U8(samples) => {
+            let eight = &*LINEAR_FROM_SRGB8;
+            spread(
+                samples.get(start..start + channels),
+                |value| eight[usize::from(value)],
+                |alpha| f32::from(alpha) / 255.0,
+            )
+        }
         Samples::U16(samples) => spread(
             samples.get(start..start + channels),
             |value| LINEAR_FROM_SRGB16[usize::from(value)],

@@ -81,8 +81,9 @@ pub struct Built {
 /// Builds an AMC from pictures of a turning ball (paper, section 5).
 ///
 /// `source` is a folder of at least 8 pictures in even steps over a whole turn, sorted as people count, or a session:
-/// a folder with `session.json`, or that file itself. Each picture is decoded once; memory holds one decoded picture
-/// per thread, a few kept to find the ball in and read meanwhile, and the texels of all.
+/// a folder with `session.json`, or that file itself. Each picture is decoded once, most of them no further down than
+/// the ball reaches, where the format allows it; memory holds one decoded picture per thread, a few kept to find the
+/// ball in and read meanwhile, and the texels of all.
 ///
 /// # Errors
 /// A file is missing, broken or of another size than the rest, the session is faulty, there are fewer than 8

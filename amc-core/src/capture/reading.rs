@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::pictures::{Plan, Planned};
 use super::resample::Footprints;
 use super::turn::Stack;
-use crate::image::decode::{MOST_BYTES, Orientation, Raster, decode_reusing};
+use crate::image::decode::{MOST_BYTES, Orientation, Raster, decode_rows};
 use crate::{Error, Progress, Result};
 
 /// The most pictures kept to find the ball in (an odd number: a cloth of even R shows each a different look), and the most bytes that they may take beyond the first few.
@@ -58,13 +58,14 @@ impl<'a> Reading<'a> {
         texels
     }
 
-    fn read(&self, planned: &Planned) -> Result<Raster> {
+    /// Reads a picture, of which at least the first `rows` rows are asked for.
+    fn read(&self, planned: &Planned, rows: usize) -> Result<Raster> {
         if self.progress.is_cancelled() {
             return Err(Error::cancelled());
         }
         let bytes = crate::file::read(&planned.path, MOST_BYTES)?;
         let buffer = self.buffers.lock().map_or_else(|_| None, |mut buffers| buffers.pop());
-        let raster = decode_reusing(&bytes, buffer.unwrap_or_default())
+        let raster = decode_rows(&bytes, buffer.unwrap_or_default(), rows)
             .map_err(|error| error.in_file(&planned.path))?;
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         self.progress.step("reading pictures", done, self.plan.pictures.len())?;
@@ -75,7 +76,7 @@ impl<'a> Reading<'a> {
     pub(super) fn keep(&self) -> Result<(First<'a>, Vec<(usize, Raster)>)> {
         let pictures = &self.plan.pictures;
         let Some(planned) = pictures.first() else { return Err(Error::invalid("there are no pictures")) };
-        let raster = self.read(planned)?;
+        let raster = self.read(planned, usize::MAX)?;
         let first = First {
             path: &planned.path,
             size: [raster.width(), raster.height()],
@@ -85,7 +86,7 @@ impl<'a> Reading<'a> {
         let kept = ((KEPT_BYTES / raster.bytes().max(1)) as usize).clamp(3, KEPT).min(pictures.len());
         let others: Vec<usize> = (1..kept).map(|k| k * pictures.len() / kept).collect();
         let mut rasters: Vec<(usize, Raster)> =
-            others.par_iter().map(|&k| self.read_like(&first, k)).collect::<Result<_>>()?;
+            others.par_iter().map(|&k| self.read_like(&first, k, usize::MAX)).collect::<Result<_>>()?;
         rasters.insert(0, (0, raster));
         Ok((first, rasters))
     }
@@ -101,14 +102,15 @@ impl<'a> Reading<'a> {
         let most = (KEPT_BYTES / bytes.max(1)) as usize;
         let others = (0..self.plan.pictures.len()).filter(|k| kept.iter().all(|(other, _)| other != k));
         let next: Vec<usize> = others.take(most).collect();
-        let read = |&k: &usize| searching.load(Ordering::Relaxed).then(|| self.read_like(first, k));
+        let read =
+            |&k: &usize| searching.load(Ordering::Relaxed).then(|| self.read_like(first, k, usize::MAX));
         next.par_iter().with_max_len(1).filter_map(read).collect()
     }
 
-    /// Reads a picture that must be of the first one's size.
-    fn read_like(&self, first: &First<'_>, k: usize) -> Result<(usize, Raster)> {
+    /// Reads a picture that must be of the first one's size, and of which at least the first `rows` rows are asked for.
+    fn read_like(&self, first: &First<'_>, k: usize, rows: usize) -> Result<(usize, Raster)> {
         let planned = &self.plan.pictures[k];
-        let raster = self.read(planned)?;
+        let raster = self.read(planned, rows)?;
         check_size(first, &planned.path, &raster)?;
         Ok((k, raster))
     }
@@ -126,10 +128,13 @@ impl<'a> Reading<'a> {
         for (k, resampled) in from_kept {
             texels[k] = Some(resampled);
         }
+        // Rows count in the file, before it is turned.
+        let upright = first.orientation == Orientation::UPRIGHT;
+        let rows = if upright { footprints.rows(first.width()) } else { usize::MAX };
         // One at a time, or a thread that is done early waits for several of another's.
         texels.par_iter_mut().enumerate().with_max_len(1).try_for_each(|(k, texels)| {
             if texels.is_none() {
-                let (_, raster) = self.read_like(first, k)?;
+                let (_, raster) = self.read_like(first, k, rows)?;
                 *texels = Some(self.texels(footprints, raster));
             }
             Ok(())

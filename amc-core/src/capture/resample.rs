@@ -98,6 +98,11 @@ impl Footprints {
         all
     }
 
+    /// How many of a picture's rows, from the top, are looked at.
+    pub(super) fn rows(&self, width: u32) -> usize {
+        self.runs.iter().map(|run| run.pixel / width + 1).max().unwrap_or(0) as usize
+    }
+
     /// The texels' red, green and blue in linear light, one after the other; NaN where the picture's coverage leaves
     /// too little.
     pub(super) fn resample(&self, picture: &Raster) -> Vec<f16> {

@@ -212,12 +212,13 @@ impl Format {
 /// No such file, a broken or cut one, one of more than [`MOST_PIXELS`] or of more than its length can justify,
 /// or an EXR sample that is not a finite number. The place is a byte where the decoder tells it.
 pub fn decode(bytes: &[u8]) -> Result<Raster> {
-    decode_reusing(bytes, Vec::new())
+    decode_rows(bytes, Vec::new(), usize::MAX)
 }
 
-/// [`decode`], for many pictures one after the other: where the samples are 8-bit ones of a JPEG they are put into
+/// [`decode`], for many pictures one after the other of which only the file's first `rows` are looked at: what lies
+/// below may hold anything, and need not be decoded. Where the samples are 8-bit ones of a JPEG they are put into
 /// `buffer`, as [`Raster::into_buffer`] of an earlier one gives it, which saves taking new memory for each.
-pub(crate) fn decode_reusing(bytes: &[u8], buffer: Vec<u8>) -> Result<Raster> {
+pub(crate) fn decode_rows(bytes: &[u8], buffer: Vec<u8>, rows: usize) -> Result<Raster> {
     if bytes.is_empty() {
         return Err(Error::malformed("the file is empty").at_byte(0));
     }
@@ -226,7 +227,7 @@ pub(crate) fn decode_reusing(bytes: &[u8], buffer: Vec<u8>) -> Result<Raster> {
     })?;
     // The decoders are other people's code: should one of them panic on a broken file, it is an error all the same.
     let decoded = catch_unwind(AssertUnwindSafe(|| match format {
-        Format::Jpeg => jpeg::decode(bytes, buffer),
+        Format::Jpeg => jpeg::decode(bytes, buffer, rows),
         Format::Png => png::decode(bytes),
         Format::Exr => exr::decode(bytes),
     }));

@@ -39,7 +39,7 @@ pub(super) fn guess(mean: &Mean<'_>, lens: Lens) -> Vec<Sight> {
     let Some(votes) = Votes::cast(&edges, &small) else { return Vec::new() };
     let mut circles: Vec<Circle> = votes
         .peaks()
-        .into_iter()
+        .into_par_iter()
         .filter_map(|centre| best_radius(centre, &edges, votes.most_radius))
         .collect();
     circles.sort_by(|a, b| b.score.total_cmp(&a.score));

@@ -202,3 +202,38 @@ fn cut_and_damaged_files_are_errors_or_pictures_and_never_panics() {
         }
     }
 }
+
+#[test]
+fn the_rows_asked_for_are_decoded_and_far_below_nothing_is() {
+    use jpeg_encoder::{ColorType, Encoder, SamplingFactor};
+    let (width, height) = (40, 100);
+    let mut numbers = PseudoRandom::new(5);
+    let samples: Vec<u8> = (0..width * height * 3).map(|_| numbers.byte()).collect();
+    let samplings =
+        [SamplingFactor::F_1_1, SamplingFactor::F_2_1, SamplingFactor::F_1_2, SamplingFactor::F_2_2];
+    for (sampling, progressive) in
+        samplings.into_iter().flat_map(|sampling| [(sampling, false), (sampling, true)])
+    {
+        let mut file = Vec::new();
+        let mut encoder = Encoder::new(&mut file, 80);
+        encoder.set_sampling_factor(sampling);
+        encoder.set_progressive(progressive);
+        encoder.encode(&samples, width as u16, height as u16, ColorType::Rgb).unwrap();
+        let all = decode(&file).unwrap().into_buffer().unwrap();
+        for rows in [0, 1, 8, 17, 48, 99, 100, usize::MAX] {
+            let raster = decode_rows(&file, vec![7; all.len()], rows).unwrap();
+            assert_eq!((raster.width(), raster.height()), (width, height));
+            let decoded = raster.into_buffer().unwrap();
+            let asked_for = rows.min(height as usize) * width as usize * 3;
+            assert!(decoded[..asked_for] == all[..asked_for], "{sampling:?} {progressive} {rows}");
+            let rest_is_left = decoded[all.len() - 300..].iter().all(|&sample| sample == 7);
+            assert_eq!(rest_is_left, rows < 50 && !progressive, "{sampling:?} {progressive} {rows}");
+        }
+        // What a file has lost is missed, wherever it was.
+        let cut = &file[..file.len() / 2];
+        let outcome = |result: Result<Raster>| result.map_err(|error| error.to_string());
+        let whole = outcome(decode(cut));
+        assert!(progressive || whole.is_err());
+        assert_eq!(outcome(decode_rows(cut, Vec::new(), 8)), whole);
+    }
+}
