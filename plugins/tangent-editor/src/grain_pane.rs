@@ -10,7 +10,7 @@ use crate::commands::{self, COMMANDS, Given};
 use crate::grain::{self, expression, partners};
 use crate::pattern::shown_degrees;
 use crate::sheet::Sheet;
-use crate::texts;
+use crate::{texts, warnings};
 
 /// Between groups, points.
 const SPACE: f32 = 8.0;
@@ -87,6 +87,7 @@ impl GrainPane {
         row(ui, Some(texts::GRAIN), &copied, studio);
         ui.add_space(SPACE);
         said(ui, sheet, &panels, studio);
+        told(ui, sheet, studio);
         clicked
     }
 
@@ -113,6 +114,22 @@ impl GrainPane {
                 self.dragged = None;
             }
         });
+    }
+}
+
+/// What to look at; a click selects the panel.
+fn told(ui: &mut Ui, sheet: &Sheet, studio: &mut Context<'_>) {
+    let warnings = warnings::warnings(sheet, studio.document.project());
+    if warnings.is_empty() {
+        return;
+    }
+    ui.add_space(SPACE);
+    ui.weak(texts::WARNINGS);
+    for warning in warnings {
+        let text = egui::RichText::new(warning.text).color(ui.visuals().warn_fg_color);
+        if ui.add(egui::Button::new(text).wrap().frame(false)).clicked() {
+            studio.selection.click(&sheet.garment.panels[warning.panel].id, false);
+        }
     }
 }
 

@@ -22,6 +22,8 @@ mod pattern;
 mod sheet;
 pub mod tech_sheet;
 mod texts;
+#[cfg(feature = "window")]
+mod warnings;
 
 pub use assignments::{Assignment, Assignments, ID, Orientation};
 #[cfg(feature = "window")]

@@ -117,6 +117,28 @@ pub(crate) fn centimetres(length: f32) -> String {
     format!("{length} cm")
 }
 
+pub(crate) const WARNINGS: &str = "Look at";
+
+/// A panel has no UVs.
+pub(crate) fn no_uvs(name: &str) -> String {
+    format!("{name} has no flat pattern (UVs): its direction is made up")
+}
+
+/// Some triangles of a panel have no UVs.
+pub(crate) fn degenerate(name: &str) -> String {
+    format!("{name}: UVs are missing in places; directions there are taken from around")
+}
+
+/// A panel's UVs are mirrored.
+pub(crate) fn mirrored(name: &str) -> String {
+    format!("{name}: the UVs are mirrored, so the piece is drawn from its back")
+}
+
+/// Mirror partners are cut differently.
+pub(crate) fn partners_differ(one: &str, other: &str, degrees: f32) -> String {
+    format!("{one} and {other} are mirror images, but their grains differ by {degrees:.1}\u{b0}")
+}
+
 /// What a piece of the flat pattern is called for who cannot see it.
 pub(crate) fn piece(name: &str, degrees: f32) -> String {
     format!("Piece {name}, warp at {degrees:.1} degrees")
