@@ -1,6 +1,7 @@
 //! A journey through the real program in a real window: opened by argument, driven by keyboard and mouse, seen in pixels.
 //!
-//! It needs Xvfb and is run by `tests/more`; `AMC_STUDIO` names the program where it is not the one that cargo built.
+//! It needs Xvfb and is run by `tests/more`; `AMC_STUDIO` names the program where it is not the one that cargo built, and
+//! `AMC_STUDIO_WITHOUT_EDITOR` is set where that has no tangent-field editor.
 
 #![cfg(feature = "full")]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
@@ -15,6 +16,7 @@ use driver::{CONTROL, ENTER, ESCAPE, PATIENCE, Person, SHIFT, Sight, until};
 use eframe::egui::{Pos2, Rect, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
+use studio_plugin::Plugin;
 use studio_tests::display::{Display, SIZE, Window, program};
 
 /// A garment that comes with the program, as a file like any other.
@@ -23,6 +25,19 @@ fn garment(folder: &Path) -> PathBuf {
     let bundled = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/garments/t-shirt.glb");
     std::fs::copy(bundled, &file).unwrap();
     file
+}
+
+/// Stands in the editor's place where the program has none: two plugins of one name are one.
+struct NoEditor;
+
+impl Plugin for NoEditor {
+    fn id(&self) -> &'static str {
+        "tangent-editor"
+    }
+
+    fn name(&self) -> &'static str {
+        "No editor"
+    }
 }
 
 /// Where things are in a window of this size.
@@ -43,7 +58,10 @@ struct Places {
 /// As the same window without a display has them.
 fn places(garment: &Path) -> Places {
     let folder = tempfile::tempdir().unwrap();
-    let studio = Studio::new().keeping_in(folder.path()).open([garment.to_owned()]);
+    let mut studio = Studio::new().keeping_in(folder.path()).open([garment.to_owned()]);
+    if std::env::var_os("AMC_STUDIO_WITHOUT_EDITOR").is_some() {
+        studio = studio.with_plugin(NoEditor);
+    }
     let [width, height] = SIZE.map(f32::from);
     let mut harness = Harness::builder()
         .with_size([width, height])
