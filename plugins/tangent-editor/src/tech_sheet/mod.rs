@@ -39,9 +39,11 @@ struct Content<'a> {
     said: &'a [Said],
 }
 
+/// Makes the bytes of a file.
+type Writer = fn(&Content<'_>) -> Vec<u8>;
+
 /// Suffix and writer of each format.
-const FORMATS: [(&str, fn(&Content<'_>) -> Vec<u8>); 3] =
-    [("svg", svg::bytes), ("pdf", pdf::bytes), ("dxf", dxf::bytes)];
+const FORMATS: [(&str, Writer); 3] = [("svg", svg::bytes), ("pdf", pdf::bytes), ("dxf", dxf::bytes)];
 
 /// Whether a file's suffix is that of a tech sheet: `.svg`, `.pdf` or `.dxf`.
 pub fn is_tech_sheet(path: &Path) -> bool {
@@ -75,7 +77,7 @@ pub fn save(
     file::save_bytes(path, &write(&Content { title, sheet: &sheet, said }))
 }
 
-fn format(path: &Path) -> Option<fn(&Content<'_>) -> Vec<u8>> {
+fn format(path: &Path) -> Option<Writer> {
     let suffix = path.extension()?.to_string_lossy().to_ascii_lowercase();
     FORMATS.iter().find(|(known, _)| *known == suffix).map(|(_, write)| *write)
 }
