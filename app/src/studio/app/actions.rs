@@ -142,7 +142,8 @@ impl App {
             // Letters alone are for whoever has the keyboard, and a text is edited by its own keys.
             let plain = !shortcut.modifiers.command && !shortcut.modifiers.alt;
             let edits_text = in_text && OF_TEXTS.contains(&shortcut.logical_key);
-            !(focused && plain) && !edits_text && ui.input_mut(|input| input.consume_shortcut(shortcut))
+            let is_theirs = edits_text || focused && plain;
+            !is_theirs && ui.input_mut(|input| input.consume_shortcut(shortcut))
         };
         // Those with more modifiers first: what is pressed with Shift is not what is pressed without.
         let mut with_keys: Vec<_> =

@@ -17,12 +17,10 @@ fn saved(suffix: &str) -> (String, Arc<Garment>) {
         Said { direction, fabric: Some("Silk <& \u{e9}>".to_owned()), assignment };
         garment.panels.len()
     ];
-    let folder = std::env::temp_dir().join(format!("tech-sheet-{}-{suffix}", std::process::id()));
-    file::make_folder(&folder).unwrap();
-    let path = folder.join(format!("sheet.{suffix}"));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(format!("sheet.{suffix}"));
     save("A \"coat\"", Arc::clone(&garment), &said, &path, &Progress::none()).unwrap();
     let bytes = std::fs::read(&path).unwrap();
-    std::fs::remove_dir_all(&folder).unwrap();
     (String::from_utf8_lossy(&bytes).into_owned(), garment)
 }
 
