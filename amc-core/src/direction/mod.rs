@@ -3,6 +3,7 @@
 //! Source: the paper's section 6 (the gradient of U, or a procedural field). What we add: the yarn source, an angle
 //! per panel, means within a panel only, and what is done where the UV map has no area.
 
+pub mod comb;
 mod field;
 mod fill;
 mod tangents;

@@ -2,17 +2,17 @@
 
 /// Disjoint sets of the numbers below a count. The root of a set is its least member, so results do not depend on
 /// the order of joining.
-pub(super) struct Forest(Vec<u32>);
+pub(crate) struct Forest(Vec<u32>);
 
 impl Forest {
     /// Every number alone.
-    pub(super) fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize) -> Self {
         Self((0..count as u32).collect())
     }
 
     /// The least member of the set of `i`.
     #[inline]
-    pub(super) fn root(&mut self, mut i: u32) -> u32 {
+    pub(crate) fn root(&mut self, mut i: u32) -> u32 {
         loop {
             let parent = self.0[i as usize];
             if parent == i {
@@ -27,7 +27,7 @@ impl Forest {
 
     /// Joins the sets of `i` and `j`.
     #[inline]
-    pub(super) fn join(&mut self, i: u32, j: u32) {
+    pub(crate) fn join(&mut self, i: u32, j: u32) {
         let (i, j) = (self.root(i), self.root(j));
         if i != j {
             self.0[i.max(j) as usize] = i.min(j);
@@ -36,7 +36,7 @@ impl Forest {
 
     /// Joins the sets of three numbers.
     #[inline]
-    pub(super) fn join_three(&mut self, [i, j, k]: [u32; 3]) {
+    pub(crate) fn join_three(&mut self, [i, j, k]: [u32; 3]) {
         // Most triangles of a mesh lie between vertices whose parents are the root already.
         let [a, b, c] = [i, j, k].map(|number| self.0[number as usize]);
         if a != b || b != c {
@@ -46,7 +46,7 @@ impl Forest {
     }
 
     /// The root of every number.
-    pub(super) fn into_roots(mut self) -> Vec<u32> {
+    pub(crate) fn into_roots(mut self) -> Vec<u32> {
         // A parent is never larger than its child, so one sweep upwards is enough.
         for i in 0..self.0.len() {
             self.0[i] = self.0[self.0[i] as usize];

@@ -13,7 +13,7 @@ mod fabric_words;
 mod flat;
 mod flat_locator;
 mod fold;
-mod forest;
+pub(crate) mod forest;
 pub mod gltf;
 mod identity;
 mod islands;
@@ -33,7 +33,7 @@ mod sections;
 mod split;
 mod triangulate;
 mod unit;
-mod weld;
+pub(crate) mod weld;
 
 pub use cloth_normals::cloth_normals;
 pub use distortion::{Distortion, Percentiles};

@@ -6,7 +6,7 @@ use std::hash::{BuildHasher as _, RandomState};
 ///
 /// An open-addressed table under a folded multiplication, seeded afresh so that no file can be made to collide; the
 /// result does not depend on the seed.
-pub(super) fn weld<const N: usize>(count: usize, key: impl Fn(usize) -> [u32; N]) -> Vec<u32> {
+pub(crate) fn weld<const N: usize>(count: usize, key: impl Fn(usize) -> [u32; N]) -> Vec<u32> {
     const EMPTY: u32 = u32::MAX;
     let seed = RandomState::new().hash_one(N);
     let mask = (count * 2).next_power_of_two().max(2) - 1;
@@ -30,7 +30,7 @@ pub(super) fn weld<const N: usize>(count: usize, key: impl Fn(usize) -> [u32; N]
 }
 
 /// The bits of a number, the same for both zeros.
-pub(super) fn bits(x: f32) -> u32 {
+pub(crate) fn bits(x: f32) -> u32 {
     (x + 0.0).to_bits()
 }
 
