@@ -6,10 +6,12 @@
 pub mod comb;
 mod field;
 mod fill;
+mod kept;
 mod tangents;
 #[cfg(test)]
 pub(crate) mod tests;
 
+pub use kept::{Fineness, KeptTangents, PanelDirection, combed_tangents};
 pub use tangents::{Tangents, tangents};
 
 use glam::{Mat2, Vec2, Vec3};

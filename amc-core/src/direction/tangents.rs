@@ -1,5 +1,7 @@
 //! From the UVs of triangles to a tangent per vertex.
 
+use std::sync::Arc;
+
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
@@ -13,7 +15,7 @@ use crate::{Error, Result};
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Tangents {
     /// One per vertex, object space: unit, and perpendicular to the vertex's normal.
-    pub vectors: Vec<Vec3>,
+    pub vectors: Arc<Vec<Vec3>>,
     /// One per panel: how many of its vertices have a direction that its source does not give there (no UVs, UVs
     /// without area, the zero of a field), filled from neighbours or made up.
     pub filled: Vec<u32>,
@@ -21,6 +23,8 @@ pub struct Tangents {
     /// Such vertices run along object Y projected into the tangent plane, turned by the panel's angle about the normal;
     /// where a part lies flat, along object X.
     pub made_up: Vec<bool>,
+    /// One per panel: whether strokes comb it, so that its direction is not what UVs and angle say.
+    pub combed: Vec<bool>,
 }
 
 /// The tangents of a garment, `directions` being one per panel.
@@ -40,19 +44,7 @@ pub fn tangents(garment: &Garment, directions: &[Direction]) -> Result<Tangents>
     let mut vectors = vec![Vec3::ZERO; garment.positions.len()];
     let mut scratch = Vec::new();
     for (panel, direction) in garment.panels.iter().zip(directions) {
-        match direction.source {
-            Source::Gradient | Source::Yarn if garment.has_uvs => {
-                add_panel(garment, panel, direction, &mut scratch, &mut vectors);
-            }
-            Source::Gradient | Source::Yarn => {}
-            Source::Field(field) => {
-                let field = Procedural::new(field, direction.angle);
-                for &vertex in triangles_of(garment, panel).as_flattened() {
-                    let vertex = vertex as usize;
-                    vectors[vertex] = field.at(garment.positions[vertex], garment.normals[vertex]);
-                }
-            }
-        }
+        add_panel(garment, panel, direction, &mut scratch, &mut vectors);
     }
     vectors.par_iter_mut().zip(&garment.normals).with_min_len(4096).for_each(|(vector, &normal)| {
         *vector = (*vector - normal * normal.dot(*vector)).normalize_or_zero();
@@ -70,7 +62,44 @@ pub fn tangents(garment: &Garment, directions: &[Direction]) -> Result<Tangents>
             *vector = perpendicular(Vec3::Y, normal);
         }
     }
-    Ok(Tangents { vectors, filled: missing, made_up })
+    let combed = vec![false; garment.panels.len()];
+    Ok(Tangents { vectors: Arc::new(vectors), filled: missing, made_up, combed })
+}
+
+/// One panel's directions anew, the others as they are: to the bit what [`tangents`] makes. `vertices` are the panel's.
+///
+/// # Errors
+/// An angle or a field that makes no sense, as in [`tangents`]; nothing is changed then.
+pub(super) fn renew(
+    garment: &Garment,
+    (index, vertices): (usize, &[u32]),
+    direction: &Direction,
+    scratch: &mut Vec<Share>,
+    tangents: &mut Tangents,
+) -> Result<()> {
+    let panel = &garment.panels[index];
+    check_direction(panel, direction)?;
+    let vectors = Arc::make_mut(&mut tangents.vectors);
+    for &vertex in vertices {
+        vectors[vertex as usize] = Vec3::ZERO;
+    }
+    add_panel(garment, panel, direction, scratch, vectors);
+    let mut missing = 0;
+    for &vertex in vertices {
+        let (vector, normal) = (&mut vectors[vertex as usize], garment.normals[vertex as usize]);
+        *vector = (*vector - normal * normal.dot(*vector)).normalize_or_zero();
+        missing += u32::from(*vector == Vec3::ZERO);
+    }
+    tangents.made_up[index] =
+        missing > 0 && fill::fill(garment, triangles_of(garment, panel), direction.angle, vectors);
+    for &vertex in vertices {
+        let vector = &mut vectors[vertex as usize];
+        if *vector == Vec3::ZERO {
+            *vector = perpendicular(Vec3::Y, garment.normals[vertex as usize]);
+        }
+    }
+    (tangents.filled[index], tangents.combed[index]) = (missing, false);
+    Ok(())
 }
 
 /// The triangles of a panel; [`check`] has seen that they are there.
@@ -95,25 +124,33 @@ fn check(garment: &Garment, directions: &[Direction]) -> Result<()> {
         return Err(Error::invalid("a triangle refers to a vertex that is not there"));
     }
     for (panel, direction) in garment.panels.iter().zip(directions) {
-        let here = |what: &str| Error::invalid(what).at_element(format!("panel {}", panel.id));
         if panel.triangles.start > panel.triangles.end
             || panel.triangles.end as usize > garment.triangles.len()
         {
-            return Err(here("refers to triangles that are not there"));
+            return Err(of_panel(panel, Error::invalid("refers to triangles that are not there")));
         }
-        if !direction.angle.is_finite() {
-            return Err(here("the angle is not a finite number"));
-        }
-        if let Source::Field(field) = direction.source {
-            field.check().map_err(|error| error.at_element(format!("panel {}", panel.id)))?;
-        }
+        check_direction(panel, direction)?;
     }
     Ok(())
 }
 
+fn check_direction(panel: &Panel, direction: &Direction) -> Result<()> {
+    if !direction.angle.is_finite() {
+        return Err(of_panel(panel, Error::invalid("the angle is not a finite number")));
+    }
+    match direction.source {
+        Source::Field(field) => field.check().map_err(|error| of_panel(panel, error)),
+        Source::Gradient | Source::Yarn => Ok(()),
+    }
+}
+
+fn of_panel(panel: &Panel, error: Error) -> Error {
+    error.at_element(format!("panel {}", panel.id))
+}
+
 /// What a triangle adds to its corners: a unit direction (zero: none) and the angles at corners 0 and 1.
 #[derive(Debug, Clone, Copy, Default)]
-struct Share {
+pub(super) struct Share {
     direction: Vec3,
     angles: [f32; 2],
 }
@@ -121,7 +158,30 @@ struct Share {
 /// Triangles done in parallel before they are summed: their shares stay in the cache.
 const BLOCK: usize = 32 * 1024;
 
+/// Adds a panel's directions up at its vertices, neither in their tangent planes yet nor unit.
 fn add_panel(
+    garment: &Garment,
+    panel: &Panel,
+    direction: &Direction,
+    scratch: &mut Vec<Share>,
+    vectors: &mut [Vec3],
+) {
+    match direction.source {
+        Source::Gradient | Source::Yarn if garment.has_uvs => {
+            add_triangles(garment, panel, direction, scratch, vectors);
+        }
+        Source::Gradient | Source::Yarn => {}
+        Source::Field(field) => {
+            let field = Procedural::new(field, direction.angle);
+            for &vertex in triangles_of(garment, panel).as_flattened() {
+                let vertex = vertex as usize;
+                vectors[vertex] = field.at(garment.positions[vertex], garment.normals[vertex]);
+            }
+        }
+    }
+}
+
+fn add_triangles(
     garment: &Garment,
     panel: &Panel,
     direction: &Direction,

@@ -87,7 +87,7 @@ fn a_sheared_stretched_sheet_has_the_gradients_and_yarns_of_its_map() {
                 let got = tangents(&garment, &one(source, degrees.to_radians())).unwrap();
                 assert_eq!((&got.filled[..], &got.made_up[..]), (&[0][..], &[false][..]));
                 let expected = tilt() * expected.extend(0.0);
-                for &t in &got.vectors {
+                for &t in got.vectors.iter() {
                     assert!((t.length() - 1.0).abs() < 1e-5);
                     assert!(degrees_between(t, expected) < 0.01, "{source:?} {degrees}: {t} for {expected}");
                 }
@@ -103,7 +103,7 @@ fn a_quarter_turn_is_counter_clockwise_in_the_pattern_so_clockwise_on_a_mirrored
         for source in [Source::Gradient, Source::Yarn] {
             let warp = tangents(&garment, &one(source, 0.0)).unwrap();
             let weft = tangents(&garment, &one(source, FRAC_PI_2)).unwrap();
-            for ((warp, weft), normal) in warp.vectors.iter().zip(&weft.vectors).zip(&garment.normals) {
+            for ((warp, weft), normal) in warp.vectors.iter().zip(weft.vectors.iter()).zip(&garment.normals) {
                 assert!(degrees_between(*warp, tilt() * Vec3::X * mirror) < 0.01);
                 assert!(degrees_between(*weft, normal.cross(*warp) * side) < 0.01);
             }
@@ -153,7 +153,7 @@ fn the_shapes_have_the_grain_their_names_promise() {
             let got = tangents(&garment, &one(source, 0.0)).unwrap();
             assert_eq!(got.filled, [0], "{name}");
             let mut off: Vec<f32> = Vec::new();
-            for (&p, &t) in garment.positions.iter().zip(&got.vectors) {
+            for (&p, &t) in garment.positions.iter().zip(got.vectors.iter()) {
                 let expected = grain(p);
                 // Poles have a test of their own.
                 if expected.length() > 1e-4 {
@@ -193,7 +193,7 @@ fn fields_are_exact_and_their_zeros_are_filled() {
         let got = tangents(&garment, &one(Source::Field(around), angle)).unwrap();
         // The poles, one vertex per column, are the field's zeros.
         assert_eq!((&got.filled[..], &got.made_up[..]), (&[512][..], &[false][..]));
-        for ((&p, &n), &t) in garment.positions.iter().zip(&garment.normals).zip(&got.vectors) {
+        for ((&p, &n), &t) in garment.positions.iter().zip(&garment.normals).zip(got.vectors.iter()) {
             assert!((t.length() - 1.0).abs() < 1e-5 && t.dot(n).abs() < 1e-5);
             let east = Vec3::Y.cross(p).normalize_or_zero();
             let expected = east * angle.cos() + n.cross(east) * angle.sin();
@@ -202,7 +202,7 @@ fn fields_are_exact_and_their_zeros_are_filled() {
     }
     let along = Source::Field(Field::Along { direction: Vec3::new(0.0, -2.0, 0.0) });
     let got = tangents(&garment, &one(along, 0.0)).unwrap();
-    for (&p, &t) in garment.positions.iter().zip(&got.vectors).filter(|(p, _)| p.y.abs() < 0.999) {
+    for (&p, &t) in garment.positions.iter().zip(got.vectors.iter()).filter(|(p, _)| p.y.abs() < 0.999) {
         let south = p * p.y - Vec3::Y;
         assert!(degrees_between(t, south) < 0.01);
     }

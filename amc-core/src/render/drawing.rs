@@ -18,7 +18,7 @@ impl Drawing {
     /// Lists of different lengths; triangles, panels or cloths that refer to what is not there.
     pub fn new(
         garment: &Garment,
-        tangents: Vec<Vec3>,
+        tangents: impl Into<Arc<Vec<Vec3>>>,
         occlusion: Option<&[Vec2]>,
         fabrics: Vec<Arc<Amc>>,
         cloth_of_panel: impl Fn(usize) -> Cloth,
@@ -41,7 +41,7 @@ impl Drawing {
         };
         let drawing = Self {
             vertices: Arc::new((0..count).map(vertex).collect()),
-            tangents: Arc::new(tangents),
+            tangents: tangents.into(),
             triangles: Arc::new(garment.triangles.clone()),
             draws: garment.panels.iter().enumerate().map(draw).collect(),
             fabrics,
@@ -56,7 +56,7 @@ impl Drawing {
     /// As [`Drawing::new`].
     pub fn dressed(
         &self,
-        tangents: Vec<Vec3>,
+        tangents: impl Into<Arc<Vec<Vec3>>>,
         fabrics: Vec<Arc<Amc>>,
         cloth_of_panel: impl Fn(usize) -> Cloth,
     ) -> Result<Self> {
@@ -65,7 +65,7 @@ impl Drawing {
             .map(|(index, draw)| Draw { triangles: draw.triangles.clone(), cloth: cloth_of_panel(index) })
             .collect();
         let (vertices, triangles) = (Arc::clone(&self.vertices), Arc::clone(&self.triangles));
-        let drawing = Self { vertices, tangents: Arc::new(tangents), triangles, draws, fabrics };
+        let drawing = Self { vertices, tangents: tangents.into(), triangles, draws, fabrics };
         drawing.check_tangents()?;
         drawing.check_draws()?;
         Ok(drawing)

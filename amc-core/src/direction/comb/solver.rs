@@ -89,6 +89,11 @@ impl CombSolver {
         &self.mesh
     }
 
+    /// Whether [`CombSolver::preview`] is another than [`CombSolver::solve`].
+    pub fn is_large(&self) -> bool {
+        self.mesh.positions.len() > PREVIEWED_ABOVE
+    }
+
     /// Where a stroke runs on the surface, object space, metres: points in its order; empty where it is off the panel.
     pub fn trace(&self, stroke: &Stroke) -> Vec<Vec3> {
         lift::lift(&self.mesh, stroke, 1).iter().map(|sample| sample.position.as_vec3()).collect()
@@ -138,7 +143,7 @@ impl CombSolver {
         own: &[Vec3],
         progress: Progress<'_>,
     ) -> Result<CombedField> {
-        if self.mesh.positions.len() <= PREVIEWED_ABOVE {
+        if !self.is_large() {
             return self.solve(comb, symmetry, own, progress);
         }
         let asked = self.ask(comb, symmetry, own, progress)?;
