@@ -15,7 +15,7 @@ pub(crate) use fabric::Fabrics;
 #[cfg(feature = "window")]
 pub(crate) use fabric::load_fabric;
 pub(crate) use garment::load_garment;
-pub(crate) use look::{PanelLook, StartingLook, directions, panel_looks};
+pub(crate) use look::{PanelLook, StartingLook, combed_directions, directions, panel_looks};
 pub(crate) use open::{Scene, open_scene};
 pub(crate) use panel_option::PanelOption;
 #[cfg(feature = "window")]
@@ -29,6 +29,7 @@ use amc_core::mesh::Garment;
 use amc_core::render::{Cloth, Drawing};
 use amc_core::{Progress, Result, direction, occlusion};
 use glam::Vec2;
+use studio_plugin::document::Project;
 
 use crate::storage::cache_folder;
 
@@ -41,18 +42,20 @@ pub(crate) fn vertex_occlusion(garment: &Garment, progress: &Progress<'_>) -> Re
     }
 }
 
-/// What is drawn: `garment` in these looks, with these prints (none: without any). Occlusion is left out where it is not
+/// What is drawn: `garment` in these looks, combed as `project` has it, with these prints (none: without any). Occlusion is left out where it is not
 /// wanted.
 pub(crate) fn drawing(
-    garment: &Garment,
+    (garment, project): (&Garment, Option<&Project>),
     (looks, prints): (&[PanelLook], &[Option<WornPrint>]),
     fabrics: Fabrics,
     with_occlusion: bool,
     progress: &Progress<'_>,
 ) -> Result<Drawing> {
-    let tangents = direction::tangents(garment, &directions(looks))?;
+    let tables = fabrics.into_tables();
+    let directions = combed_directions(looks, garment, project, &tables);
+    let tangents = direction::combed_tangents(garment, &directions, *progress)?;
     let occlusion = if with_occlusion { Some(vertex_occlusion(garment, progress)?) } else { None };
-    Drawing::new(garment, tangents.vectors, occlusion.as_deref(), fabrics.into_tables(), |panel| {
+    Drawing::new(garment, tangents.vectors, occlusion.as_deref(), tables, |panel| {
         let (look, print) = (&looks[panel], prints.get(panel).and_then(Option::as_ref));
         let of = |fabric| print::printed(fabric, print, garment, &garment.panels[panel], &look.direction);
         look.fabric.map_or(Cloth::Plain, of)

@@ -131,5 +131,6 @@ fn comb(place: f32) -> Comb {
         strokes: vec![bow(0.1, 0.1), bow(0.4, 0.2), soft, bow(0.1 + place, 0.6)],
         elsewhere: Elsewhere::Own,
         reach: 0.1,
+        turn: 0.0,
     }
 }

@@ -105,7 +105,7 @@ fn cut_into_panels(mesh: Mesh) {
         }
         let tangents =
             amc_core::direction::tangents(&garment, &directions).expect("a checked garment has directions");
-        for tangent in &tangents.vectors {
+        for tangent in tangents.vectors.iter() {
             assert!((tangent.length() - 1.0).abs() < 1e-3, "a tangent of length {}", tangent.length());
         }
     }

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use glam::Vec3;
-
 use super::comb::{Comb, CombSolver, CombedField, PanelMesh};
 use super::tangents::{Share, renew, tangents, triangles_of};
 use super::{Direction, Tangents};
@@ -215,12 +213,12 @@ mod tests {
     use super::super::tests::{flat, garment_of};
     use super::super::{Field, Source};
     use super::*;
-    use glam::{Quat, Vec2};
+    use glam::{Quat, Vec2, Vec3};
 
     fn comb(turn: f32) -> Arc<Comb> {
         let points = vec![Vec2::new(0.2, 0.2), Vec2::new(0.2, 0.2) + Vec2::from_angle(turn) * 0.5];
         let stroke = Stroke { path: Path::Pattern(points), hold: Hold::Exact, radius: 0.1, is_on: true };
-        Arc::new(Comb { strokes: vec![stroke], elsewhere: Elsewhere::Own, reach: 0.2 })
+        Arc::new(Comb { strokes: vec![stroke], elsewhere: Elsewhere::Own, reach: 0.2, turn: 0.0 })
     }
 
     fn three() -> Arc<Garment> {

@@ -29,7 +29,7 @@ pub(super) fn run(why: &str, output: &Output) -> Outcome {
     let (picture, renderer, without_device) = with_progress(|progress| {
         let mut fabrics = Fabrics::default();
         let looks = panel_looks(&garment, (None, None), &[], Some(&mut fabrics), progress)?;
-        let drawing = drawing(&garment, (&looks, &[]), fabrics, true, progress)?;
+        let drawing = drawing((&garment, None), (&looks, &[]), fabrics, true, progress)?;
         draw_anyhow(&drawing, &view, &Shading::default(), progress)
     })?;
     if let Some(error) = without_device {

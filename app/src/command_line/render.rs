@@ -166,7 +166,8 @@ fn painter(
         Some(project) => worn_prints(project, garment, &load_prints(project, garment)?),
         None => Vec::new(),
     };
-    let drawing = drawing(garment, (&looks, &prints), fabrics, shading.occlusion, progress)?;
+    let drawing =
+        drawing((garment, project.as_ref()), (&looks, &prints), fabrics, shading.occlusion, progress)?;
     let hidden = project.as_ref().map(|project| hidden_panels(project, garment)).unwrap_or_default();
     Painter::new(device.clone(), drawing, &hidden)
 }

@@ -13,7 +13,7 @@ use tangent_editor::tech_sheet::{self, Said};
 use super::Outcome;
 use super::output::Output;
 use super::values::unit;
-use crate::scene::{PanelOption, Scene, directions, open_scene, panel_looks};
+use crate::scene::{Fabrics, PanelOption, Scene, combed_directions, directions, open_scene, panel_looks};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
@@ -44,7 +44,12 @@ pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
     for notice in &notices {
         output.notice(notice);
     }
-    let looks = panel_looks(&garment, (project.as_ref(), None), &arguments.panel, None, &Progress::none())?;
+    let is_combed =
+        garment.panels.iter().any(|panel| project.as_ref().is_some_and(|it| it.comb(&panel.id).is_some()));
+    // Strokes are followed as the fabric's symmetry has it; without strokes fabrics say nothing.
+    let mut fabrics = Fabrics::default();
+    let (starting, wanted) = ((project.as_ref(), None), is_combed.then_some(&mut fabrics));
+    let looks = panel_looks(&garment, starting, &arguments.panel, wanted, &Progress::none())?;
     let directions = directions(&looks);
     let (panels, vertices) = (garment.panels.len(), garment.positions.len());
     if tech_sheet::is_tech_sheet(&arguments.output) {
@@ -52,7 +57,8 @@ pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
         let title = Asset::named(&arguments.mesh.to_string_lossy()).name();
         tech_sheet::save(&title, Arc::new(garment), &said, &arguments.output, &Progress::none())?;
     } else {
-        let tangents = direction::tangents(&garment, &directions)?;
+        let combed = combed_directions(&looks, &garment, project.as_ref(), &fabrics.into_tables());
+        let tangents = direction::combed_tangents(&garment, &combed, Progress::none())?;
         export::tangents(&garment, &tangents, &directions, &arguments.output)?;
     }
     let exported = Exported { file: &arguments.output, panels, vertices, notices: &notices };

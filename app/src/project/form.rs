@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use amc_core::Result;
+use amc_core::direction::comb::Comb;
 use amc_core::direction::{Direction, Source};
 use amc_core::mesh::Unit;
 use amc_core::render::Laying;
@@ -78,6 +80,8 @@ struct PanelForm {
     #[serde(default)]
     direction: Option<DirectionForm>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    comb: Option<Comb>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     print: Option<PrintForm>,
     #[serde(default = "yes")]
     visible: bool,
@@ -122,7 +126,9 @@ impl ProjectForm {
         let panels = project.panels.iter().map(|(id, choice)| {
             let direction = choice.direction.map(DirectionForm::new);
             let print = choice.print.as_ref().map(|print| PrintForm::new(print, folder)).transpose()?;
-            Ok((id.clone(), PanelForm { fabric: choice.fabric, direction, print, visible: choice.visible }))
+            let comb = choice.comb.as_deref().cloned();
+            let PanelChoice { fabric, visible, .. } = *choice;
+            Ok((id.clone(), PanelForm { fabric, direction, comb, print, visible }))
         });
         Ok(Self {
             version: super::VERSION,
@@ -143,10 +149,11 @@ impl ProjectForm {
             let name = if name.is_empty() { asset.name() } else { name };
             FabricInUse { id, asset, name }
         });
-        let panels = self.panels.into_iter().map(|(id, PanelForm { fabric, direction, print, visible })| {
+        let panels = self.panels.into_iter().map(|(id, form)| {
+            let PanelForm { fabric, direction, comb, print, visible } = form;
             let direction = direction.map(DirectionForm::into_direction);
             let print = print.map(|print| print.into_print(folder));
-            (id, PanelChoice { fabric, direction, print, visible })
+            (id, PanelChoice { fabric, direction, comb: comb.map(Arc::new), print, visible })
         });
         Project {
             garment: self.garment.into_asset(folder),

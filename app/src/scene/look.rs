@@ -1,8 +1,10 @@
 //! The look of every panel: its fabric and its direction.
 
 use std::path::Path;
+use std::sync::Arc;
 
-use amc_core::direction::{Direction, Field, Source};
+use amc_core::amc::{Amc, Symmetry};
+use amc_core::direction::{Direction, Field, PanelDirection, Source};
 use amc_core::mesh::{Garment, Panel};
 use amc_core::{Error, Progress, Result};
 use glam::Vec3;
@@ -29,6 +31,26 @@ pub(crate) struct PanelLook {
 /// The directions alone.
 pub(crate) fn directions(looks: &[PanelLook]) -> Vec<Direction> {
     looks.iter().map(|look| look.direction).collect()
+}
+
+/// What the comb takes for the same directions: those that look the same in the fabric; without one a cloth like most.
+pub(crate) fn symmetry(fabric: Option<&Amc>) -> u32 {
+    fabric.map_or(Symmetry::Two, |table| table.symmetry).order()
+}
+
+/// The looks' directions with the strokes that `project` has for them.
+pub(crate) fn combed_directions(
+    looks: &[PanelLook],
+    garment: &Garment,
+    project: Option<&Project>,
+    tables: &[Arc<Amc>],
+) -> Vec<PanelDirection> {
+    let combed = |(look, panel): (&PanelLook, &Panel)| PanelDirection {
+        own: look.direction,
+        comb: project.and_then(|project| project.comb(&panel.id)).cloned(),
+        symmetry: symmetry(look.fabric.and_then(|fabric| tables.get(fabric)).map(|table| &**table)),
+    };
+    looks.iter().zip(&garment.panels).map(combed).collect()
 }
 
 /// Every panel's look: as `project` has it; without one in `amc` (a file or `fabric:NAME`; default: the bundled satin) on all

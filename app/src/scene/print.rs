@@ -72,7 +72,7 @@ pub(crate) fn printed(
     panel: &Panel,
     direction: &Direction,
 ) -> Cloth {
-    match print.zip(garment.uv_to_metres(panel)) {
+    match print.and_then(|print| Some((print, garment.uv_to_metres(panel)?))) {
         Some((WornPrint { print, laying }, metres)) => {
             Cloth::Printed(fabric, LaidPrint::new(print, laying, panel, direction, metres))
         }

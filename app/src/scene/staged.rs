@@ -5,27 +5,31 @@ use std::sync::Arc;
 
 use amc_core::Result;
 use amc_core::amc::Amc;
-use amc_core::direction::{self, Direction};
+use amc_core::direction::{Direction, PanelDirection};
 use amc_core::mesh::{Garment, Panel};
 use amc_core::render::{Cloth, Drawing};
+use glam::Vec3;
 use studio_plugin::document::{FabricId, Project};
 
 use super::WornPrint;
+use super::look::symmetry;
 use super::print::printed;
 
 /// A panel's fabric (none: plain grey) and direction.
-pub(crate) type DocumentLook = (Option<FabricId>, Direction);
+pub(crate) type DocumentLook = (Option<FabricId>, PanelDirection);
 
 /// Every panel's fabric, where it is among those that are loaded, and direction.
 pub(crate) fn document_looks(
     project: &Project,
     garment: &Garment,
-    is_loaded: impl Fn(FabricId) -> bool,
+    fabrics: &BTreeMap<FabricId, Arc<Amc>>,
 ) -> Vec<DocumentLook> {
     let look = |panel: &Panel| {
         let look = project.look_of(panel);
-        let fabric = look.fabric.filter(|&id| is_loaded(id));
-        (fabric, look.direction.unwrap_or_else(|| Direction::along_grain(panel)))
+        let fabric = look.fabric.filter(|id| fabrics.contains_key(id));
+        let own = look.direction.unwrap_or_else(|| Direction::along_grain(panel));
+        let table = fabric.and_then(|id| fabrics.get(&id)).map(|table| &**table);
+        (fabric, PanelDirection { own, comb: project.comb(&panel.id).cloned(), symmetry: symmetry(table) })
     };
     garment.panels.iter().map(look).collect()
 }
@@ -49,17 +53,27 @@ impl PartialEq for Outfit {
     }
 }
 
-/// What is drawn: `plain`, which is `garment` without any fabric, in this outfit.
-pub(crate) fn dressed(plain: &Drawing, garment: &Garment, outfit: &Outfit) -> Result<Drawing> {
+impl Outfit {
+    /// The direction of each panel.
+    pub(crate) fn directions(&self) -> Vec<PanelDirection> {
+        self.looks.iter().map(|look| look.1.clone()).collect()
+    }
+}
+
+/// What is drawn: `plain`, which is `garment` without any fabric, in this outfit; `vectors` are the tangents of its directions.
+pub(crate) fn dressed(
+    plain: &Drawing,
+    garment: &Garment,
+    outfit: &Outfit,
+    vectors: &Arc<Vec<Vec3>>,
+) -> Result<Drawing> {
     let Outfit { looks, prints, fabrics } = outfit;
-    let directions: Vec<Direction> = looks.iter().map(|look| look.1).collect();
-    let tangents = direction::tangents(garment, &directions)?;
     let numbers: BTreeMap<FabricId, usize> = fabrics.keys().copied().zip(0..).collect();
     let cloth = |panel: usize| {
         let (fabric, direction) = &looks[panel];
         let (print, panel) = (prints[panel].as_ref(), &garment.panels[panel]);
         let number = fabric.and_then(|id| numbers.get(&id));
-        number.map_or(Cloth::Plain, |&number| printed(number, print, garment, panel, direction))
+        number.map_or(Cloth::Plain, |&number| printed(number, print, garment, panel, &direction.own))
     };
-    plain.dressed(tangents.vectors, fabrics.values().cloned().collect(), cloth)
+    plain.dressed(Arc::clone(vectors), fabrics.values().cloned().collect(), cloth)
 }

@@ -234,7 +234,8 @@ impl App {
             (&mut self.jobs, &mut self.notices),
             self.gpu.as_ref(),
             &mut requests,
-        );
+        )
+        .holding(self.tool);
         let outcome = call(&mut self.registry, &mut studio);
         for request in requests {
             self.grant(request);
@@ -251,10 +252,16 @@ impl App {
             }
             Request::GoTo(position) => self.desk.document.go_to(position),
             Request::View(view) => self.desk.document.set_view(view),
+            Request::Tool(plugin, tool) => self.take(plugin, tool),
             Request::Copy(text) => self.context.copy_text(text),
             Request::AskWhere(plugin, ask) => self.ask(Purpose::Where(plugin, ask)),
             Request::AskWhich(plugin, ask) => self.ask(Purpose::Which(plugin, ask)),
         }
+    }
+
+    /// Puts a tool into the person's hand; the one that is there already is put away.
+    fn take(&mut self, plugin: &'static str, tool: &'static str) {
+        self.tool = if self.tool == Some((plugin, tool)) { None } else { Some((plugin, tool)) };
     }
 
     fn title(&self) -> String {

@@ -6,11 +6,12 @@ use std::sync::Arc;
 
 use amc_core::Result;
 use amc_core::amc::Amc;
+use amc_core::direction::{Direction, Fineness, KeptTangents};
 use amc_core::mesh::{Garment, Picker, Unit};
 use amc_core::render::{Bounds, Cloth, Drawing, Print};
 use eframe::egui::ColorImage;
 use studio_plugin::document::{Asset, FabricId, Project};
-use studio_plugin::{Job, Jobs, Notices, Registry, Stage};
+use studio_plugin::{DrawnDirections, Job, Jobs, Notices, Registry, Stage};
 
 use super::texts::notices as words;
 use super::thumbnail;
@@ -44,9 +45,22 @@ pub(super) struct Stager {
 pub(super) struct Drawn {
     /// The drawing, and to pick panels in it.
     pub(super) latest: Option<(Arc<Drawing>, Arc<Picker>)>,
-    job: Option<Job<Drawing>>,
+    directions: Option<Arc<DrawnDirections>>,
+    job: Option<Job<Made>>,
     /// What it was last made of, or is being made of.
     of: Option<Recipe>,
+    /// The tangents; none while a job has them.
+    kept: Option<KeptTangents>,
+    /// Whether strokes are followed nearly as yet, and the rest is to come.
+    is_preview: bool,
+}
+
+/// What a job made of a recipe.
+#[derive(Debug)]
+struct Made {
+    kept: KeptTangents,
+    drawing: Result<Drawing>,
+    is_preview: bool,
 }
 
 /// Something that is loaded once, until it is to be something else.
@@ -201,7 +215,7 @@ impl Stager {
         let recipe = self.loaded.as_ref().map(|loaded| Recipe {
             loaded: loaded.clone(),
             outfit: Outfit {
-                looks: document_looks(project, &loaded.garment, |id| self.stage.fabrics.contains_key(&id)),
+                looks: document_looks(project, &loaded.garment, &self.stage.fabrics),
                 prints: worn_prints(project, &loaded.garment, &self.stage.prints),
                 fabrics: self.stage.fabrics.clone(),
             },
@@ -213,7 +227,7 @@ impl Stager {
                     .outfit
                     .looks
                     .iter()
-                    .map(|look| compared.look(*look, |id| recipe.outfit.fabrics.contains_key(&id)))
+                    .map(|look| compared.look(look.clone(), |id| recipe.outfit.fabrics.contains_key(&id)))
                     .collect(),
                 ..recipe.outfit.clone()
             },
@@ -221,6 +235,7 @@ impl Stager {
         });
         self.drawn.update(recipe, jobs, notices);
         self.compared.update(other, jobs, notices);
+        self.stage.directions.clone_from(&self.drawn.directions);
     }
 }
 
@@ -228,23 +243,62 @@ impl Drawn {
     fn update(&mut self, recipe: Option<Recipe>, jobs: &mut Jobs, notices: &mut Notices) {
         if let Some(result) = self.job.as_ref().and_then(Job::poll) {
             self.job = None;
-            match (result, &self.of) {
-                (Ok(drawing), Some(recipe)) => {
-                    self.latest = Some((Arc::new(drawing), Arc::clone(&recipe.loaded.picker)));
-                }
-                (Ok(_), None) => {}
-                (Err(error), _) => notices.failed(error),
+            match result {
+                Ok(made) => self.take_in(made, notices),
+                Err(error) => notices.failed(error),
             }
         }
         let Some(recipe) = recipe else {
             *self = Self::default();
             return;
         };
-        // One at a time: what has changed meanwhile is drawn next.
-        if self.job.is_none() && self.of.as_ref() != Some(&recipe) {
-            self.of = Some(recipe.clone());
-            self.job = Some(jobs.start(words::DIRECTIONS, move |_| recipe.drawing()));
+        let is_new = self.of.as_ref() != Some(&recipe);
+        match &self.job {
+            // One at a time. What is only made finer gives way to what is new.
+            Some(job) if is_new && self.is_preview => job.cancel(),
+            Some(_) => {}
+            None if is_new => self.draw(recipe, Fineness::Preview, jobs, notices),
+            None if self.is_preview => self.draw(recipe, Fineness::Whole, jobs, notices),
+            None => {}
         }
+    }
+
+    fn take_in(&mut self, made: Made, notices: &mut Notices) {
+        match (made.drawing, &self.of) {
+            (Ok(drawing), Some(recipe)) => {
+                self.latest = Some((Arc::new(drawing), Arc::clone(&recipe.loaded.picker)));
+                self.directions = Some(Arc::new(DrawnDirections {
+                    garment: Arc::clone(made.kept.garment()),
+                    vectors: Arc::clone(&made.kept.tangents().vectors),
+                    fields: made.kept.fields(),
+                }));
+                self.is_preview = made.is_preview;
+            }
+            (Ok(_), None) => {}
+            // It made way for another.
+            (Err(error), _) if error.is_cancelled() => self.of = None,
+            (Err(error), _) => {
+                self.is_preview = false;
+                notices.failed(error);
+            }
+        }
+        self.kept = Some(made.kept);
+    }
+
+    /// Now where that is a matter of a frame, else in a job.
+    fn draw(&mut self, recipe: Recipe, fineness: Fineness, jobs: &mut Jobs, notices: &mut Notices) {
+        self.of = Some(recipe.clone());
+        let of_garment = |kept: &KeptTangents| Arc::ptr_eq(kept.garment(), &recipe.loaded.garment);
+        let kept = self.kept.take().filter(of_garment);
+        if kept.as_ref().is_some_and(|kept| kept.is_quick(&recipe.outfit.directions())) {
+            match recipe.drawing(kept, Fineness::Whole, &amc_core::Progress::none()) {
+                Ok(made) => self.take_in(made, notices),
+                Err(error) => notices.failed(error),
+            }
+            return;
+        }
+        let work = move |progress: &amc_core::Progress<'_>| recipe.drawing(kept, fineness, progress);
+        self.job = Some(jobs.start(words::DIRECTIONS, work));
     }
 }
 
@@ -271,8 +325,26 @@ impl Loaded {
 }
 
 impl Recipe {
-    fn drawing(&self) -> Result<Drawing> {
-        dressed(&self.loaded.plain, &self.loaded.garment, &self.outfit)
+    /// `kept` are the tangents of this garment as they were last.
+    fn drawing(
+        &self,
+        kept: Option<KeptTangents>,
+        fineness: Fineness,
+        progress: &amc_core::Progress<'_>,
+    ) -> Result<Made> {
+        let (garment, directions) = (&self.loaded.garment, self.outfit.directions());
+        let mut kept = match kept {
+            Some(kept) => kept,
+            None => {
+                let own: Vec<Direction> = directions.iter().map(|direction| direction.own).collect();
+                KeptTangents::new(Arc::clone(garment), &own)?
+            }
+        };
+        let set = kept.set(&directions, fineness, *progress);
+        let is_preview = matches!(set, Ok(false));
+        let dress = |_| dressed(&self.loaded.plain, garment, &self.outfit, &kept.tangents().vectors);
+        let drawing = set.and_then(dress);
+        Ok(Made { drawing, is_preview, kept })
     }
 }
 

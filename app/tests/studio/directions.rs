@@ -1,8 +1,9 @@
 //! The tangent-field editor, as a designer uses it.
 
+use amc_core::direction::comb::{Path, Stroke};
 use amc_core::mesh::{self, Garment, Unit};
 use amc_studio::studio::Studio;
-use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2};
+use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
@@ -97,6 +98,93 @@ fn an_arrow_is_dragged_and_a_sum_is_typed() {
     assert_ne!(picture(&mut harness), before);
     press(&mut harness, Modifiers::COMMAND, Key::Z);
     near(&harness, "back", turned);
+}
+
+/// A project's strokes on a panel.
+fn strokes(harness: &Harness<'_, App>, panel: &str) -> Vec<Stroke> {
+    let comb = harness.state().document().project().comb(panel);
+    comb.map(|comb| comb.strokes.clone()).unwrap_or_default()
+}
+
+/// Where a piece of the flat pattern is in the window.
+fn piece(harness: &Harness<'_, App>, name: &str) -> egui::Rect {
+    let named = format!("Piece {name},");
+    harness.get_by(|node| node.label().is_some_and(|label| label.starts_with(&named))).rect()
+}
+
+#[test]
+fn strokes_comb_a_panel_and_are_moved_switched_off_deleted_undone_and_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    show_tab(&mut harness, "Flat pattern");
+    select(&mut harness, "back");
+    let plain = picture(&mut harness);
+    press(&mut harness, Modifiers::NONE, Key::B);
+    let back = piece(&harness, "back");
+    let (from, to) = (back.center() + vec2(-25.0, 10.0), back.center() + vec2(30.0, -5.0));
+    drag(&mut harness, from, to);
+    let drawn = strokes(&harness, "back");
+    assert_eq!((drawn.len(), harness.state().document().steps().count()), (1, 1), "a stroke is one step");
+    let Path::Pattern(points) = &drawn[0].path else { panic!("a stroke of the pattern") };
+    assert!(points.len() >= 2);
+    let combed = picture(&mut harness);
+    assert_ne!(combed, plain);
+
+    // Its end is dragged: it turns about its start.
+    drag(&mut harness, to, to + vec2(0.0, -30.0));
+    let moved = strokes(&harness, "back");
+    let Path::Pattern(turned) = &moved[0].path else { panic!("a stroke of the pattern") };
+    assert!(turned[0].distance(points[0]) < 1e-4);
+    assert!(turned[turned.len() - 1].distance(points[points.len() - 1]) > 1e-3);
+
+    show_tab(&mut harness, "Comb");
+    click(&mut harness, "Stroke 1 counts");
+    assert!(!strokes(&harness, "back")[0].is_on);
+    press(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert!(strokes(&harness, "back")[0].is_on);
+    click(&mut harness, "Weft");
+    assert!(
+        (harness.state().document().project().comb("back").unwrap().turn.to_degrees() - 90.0).abs() < 0.01
+    );
+
+    // Turning the panel turns all of it.
+    press(&mut harness, Modifiers::SHIFT, Key::CloseBracket);
+    assert!(
+        (harness.state().document().project().comb("back").unwrap().turn.to_degrees() - 180.0).abs() < 0.01
+    );
+    let kept = harness.state().document().project().clone();
+    press(&mut harness, Modifiers::NONE, Key::Delete);
+    assert!(strokes(&harness, "back").is_empty());
+    press(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert_eq!(*harness.state().document().project(), kept);
+    while harness.state().document().undo_name().is_some() {
+        press(&mut harness, Modifiers::COMMAND, Key::Z);
+    }
+    assert!(harness.state().document().project().comb("back").is_none());
+    press(&mut harness, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
+    assert_eq!(strokes(&harness, "back"), drawn);
+}
+
+#[test]
+fn a_stroke_is_drawn_on_the_garment_and_lies_in_its_flat_pattern() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    let plain = picture(&mut harness);
+    press(&mut harness, Modifiers::NONE, Key::B);
+    let view = harness.get_by_label("Garment").rect();
+    let from = view.center() + vec2(-30.0, 10.0);
+    drag(&mut harness, from, from + vec2(0.0, 60.0));
+    let project = harness.state().document().project().clone();
+    let combed: Vec<_> = project.panels.iter().filter(|(_, choice)| choice.comb.is_some()).collect();
+    let [(panel, _)] = combed[..] else { panic!("one panel is combed, not {}", combed.len()) };
+    let drawn = strokes(&harness, panel);
+    assert!(matches!(&drawn[0].path, Path::Pattern(points) if points.len() >= 2));
+    assert_ne!(picture(&mut harness), plain);
+
+    // Put away, the button selects again.
+    press(&mut harness, Modifiers::NONE, Key::B);
+    drag(&mut harness, from, from + vec2(40.0, 0.0));
+    assert_eq!(strokes(&harness, panel), drawn);
 }
 
 #[test]

@@ -21,6 +21,8 @@ pub struct Context<'a> {
     /// The graphics device; none where the studio draws on the processor.
     pub gpu: Option<&'a Gpu>,
     requests: &'a mut Vec<Request>,
+    /// The plugin and its tool in the person's hand.
+    tool: Option<(&'static str, &'static str)>,
     /// The id of the plugin that is called.
     pub(crate) plugin: &'static str,
 }
@@ -34,6 +36,8 @@ pub enum Request {
     GoTo(usize),
     /// Another view.
     View(ViewSettings),
+    /// The plugin of this id offers the tool of this id; one that is in the hand already is put away.
+    Tool(&'static str, &'static str),
     /// A text for the clipboard.
     Copy(String),
     /// The plugin of this id wants to know where to save.
@@ -51,7 +55,23 @@ impl<'a> Context<'a> {
         gpu: Option<&'a Gpu>,
         requests: &'a mut Vec<Request>,
     ) -> Self {
-        Self { document, stage, selection, jobs, notices, gpu, requests, plugin: "" }
+        Self { document, stage, selection, jobs, notices, gpu, requests, tool: None, plugin: "" }
+    }
+
+    /// With a plugin's tool in the person's hand.
+    #[must_use]
+    pub fn holding(self, tool: Option<(&'static str, &'static str)>) -> Self {
+        Self { tool, ..self }
+    }
+
+    /// Whether this tool of the plugin that is called is in the person's hand.
+    pub fn holds(&self, tool: &str) -> bool {
+        self.tool == Some((self.plugin, tool))
+    }
+
+    /// Puts this tool of the plugin that is called into the person's hand; one that is there already is put away.
+    pub fn take(&mut self, tool: &'static str) {
+        self.requests.push(Request::Tool(self.plugin, tool));
     }
 
     /// Submits an edit: one step of the undo.

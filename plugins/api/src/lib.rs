@@ -42,6 +42,6 @@ pub use registry::{Registered, Registry};
 pub use selection::Selection;
 pub use shading_choice::ShadingChoice;
 #[cfg(feature = "window")]
-pub use stage::Stage;
+pub use stage::{DrawnDirections, Stage};
 #[cfg(feature = "window")]
 pub use viewport::{Hand, ViewportView};

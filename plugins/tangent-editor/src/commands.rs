@@ -8,10 +8,11 @@ use glam::{Vec2, Vec3};
 use studio_plugin::document::Edit;
 use studio_plugin::{Command, Context};
 
+use crate::comb;
 use crate::grain::{self, align, partners};
 use crate::pattern::PickedEdge;
 use crate::sheet::Sheet;
-use crate::texts;
+use crate::texts::{self, comb as comb_texts};
 
 const fn command(id: &'static str, name: &'static str, tooltip: &'static str) -> Command {
     Command { id, name, tooltip, shortcut: None }
@@ -43,8 +44,17 @@ pub(crate) const COMMANDS: &[Command] = &[
     command("paste-mirrored", texts::PASTE_MIRRORED, texts::PASTE_TIP),
     keyed(command("mirror", texts::MIRROR, texts::MIRROR_TIP), Modifiers::SHIFT, Key::M),
     command("reset", texts::RESET, texts::RESET_TIP),
+    keyed(
+        command("delete-stroke", comb_texts::DELETE_COMMAND, comb_texts::DELETE_TIP),
+        Modifiers::NONE,
+        Key::Delete,
+    ),
     command("save-sheet", texts::SAVE, texts::SAVE_TIP),
 ];
+
+/// The tool that draws strokes.
+pub(crate) const COMB_TOOL: Command =
+    keyed(command(comb::TOOL, comb_texts::TOOL, comb_texts::TOOL_TIP), Modifiers::NONE, Key::B);
 
 /// What commands take from earlier ones.
 #[derive(Debug, Default)]

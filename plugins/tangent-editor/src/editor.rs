@@ -6,9 +6,11 @@ use std::sync::Arc;
 use amc_core::mesh::{Garment, SurfacePlace};
 use egui::Painter;
 use studio_plugin::document::Project;
-use studio_plugin::{Ask, Command, Context, FileKind, Job, Pane, Place, Plugin, ViewportView};
+use studio_plugin::{Ask, Command, Context, FileKind, Hand, Job, Pane, Place, Plugin, ViewportView};
 
 use crate::assignments::{Assignments, ID};
+use crate::comb::pane::CombPane;
+use crate::comb::{self, Stylus};
 use crate::commands::{self, Given};
 use crate::grain;
 use crate::grain_pane::GrainPane;
@@ -24,6 +26,8 @@ pub struct TangentEditor {
     laying_out: Option<(Arc<Garment>, Job<Sheet>)>,
     pattern: PatternPane,
     grain: GrainPane,
+    comb: CombPane,
+    stylus: Stylus,
     given: Given,
     /// The place on the garment under the pointer: in the flat pattern, and in the viewport.
     under_pointer: (Option<SurfacePlace>, Option<SurfacePlace>),
@@ -43,7 +47,21 @@ impl Plugin for TangentEditor {
         commands::COMMANDS.to_vec()
     }
 
+    fn tools(&self) -> Vec<Command> {
+        vec![commands::COMB_TOOL]
+    }
+
+    fn use_tool(&mut self, _tool: &str, hand: &Hand<'_>, studio: &mut Context<'_>) {
+        if let Some(sheet) = &self.sheet {
+            let finder = overlay::OnGarment { view: &hand.viewport, sheet };
+            self.stylus.use_in(hand.response, &finder, sheet, studio);
+        }
+    }
+
     fn can_run(&self, command: &str, studio: &Context<'_>) -> bool {
+        if command == "delete-stroke" {
+            return self.sheet.is_some() && self.stylus.chosen.is_some();
+        }
         self.sheet.as_ref().is_some_and(|sheet| commands::can_run(command, sheet, &self.given, studio))
     }
 
@@ -51,6 +69,11 @@ impl Plugin for TangentEditor {
         match &self.sheet {
             _ if command == "fit" => self.pattern.fit(),
             _ if command == "save-sheet" => ask(studio),
+            Some(sheet) if command == "delete-stroke" => {
+                if let Some(chosen) = self.stylus.chosen.take() {
+                    comb::delete(&sheet.garment, chosen, studio);
+                }
+            }
             Some(sheet) => commands::run(command, sheet, &mut self.given, studio),
             None => {}
         }
@@ -109,6 +132,7 @@ impl Plugin for TangentEditor {
         vec![
             Pane { id: "pattern", title: texts::PATTERN, place: Place::Beside },
             Pane { id: "grain", title: texts::GRAIN, place: Place::Right },
+            Pane { id: "comb", title: texts::COMB, place: Place::Right },
         ]
     }
 
@@ -117,11 +141,14 @@ impl Plugin for TangentEditor {
             ui.weak(texts::OPENING);
             return;
         };
-        if sheet.pieces.is_empty() {
+        if pane == "comb" {
+            self.comb.show(ui, sheet, &mut self.stylus, studio);
+        } else if sheet.pieces.is_empty() {
             ui.label(texts::NO_UVS);
         } else if pane == "pattern" {
             let marked = self.under_pointer.1;
-            self.under_pointer.0 = self.pattern.show(ui, sheet, &mut self.given.picked_edge, marked, studio);
+            let given = (&mut self.given.picked_edge, &mut self.stylus);
+            self.under_pointer.0 = self.pattern.show(ui, sheet, given, marked, studio);
         } else if let Some(clicked) = self.grain.show(ui, sheet, &self.given, studio) {
             self.run(clicked, studio);
         }
@@ -130,6 +157,7 @@ impl Plugin for TangentEditor {
     fn overlay(&mut self, painter: &Painter, view: &ViewportView<'_>, studio: &mut Context<'_>) {
         let Some(sheet) = &self.sheet else { return };
         overlay::arrows(painter, view, sheet, studio);
+        overlay::strokes(painter, view, sheet, self.stylus.chosen, studio);
         if let Some(place) = &self.under_pointer.0 {
             overlay::mark(painter, view, &sheet.garment, place);
         }

@@ -8,6 +8,8 @@
 
 mod assignments;
 #[cfg(feature = "window")]
+mod comb;
+#[cfg(feature = "window")]
 mod commands;
 #[cfg(feature = "window")]
 mod editor;

@@ -1,16 +1,20 @@
 //! What the editor draws over the garment.
 
+use amc_core::direction::comb;
 use amc_core::mesh::{Garment, SurfacePlace};
 use egui::{Painter, Shape, Stroke};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use studio_plugin::{Context, ViewportView};
 
+use crate::comb::{Chosen, Finder, marks};
 use crate::grain;
 use crate::pattern::head;
 use crate::sheet::{Piece, Sheet};
 
 /// Points along an arrow.
 const POINTS: usize = 13;
+/// Points of a stroke on the garment.
+const LINE_POINTS: usize = 32;
 /// Length of its head, points.
 const HEAD: f32 = 10.0;
 
@@ -26,7 +30,7 @@ pub(crate) fn arrows(painter: &Painter, view: &ViewportView<'_>, sheet: &Sheet, 
         let along = grain::direction(panel, studio.document.project()).on_cloth(piece.uv_to_sheet.matrix2);
         let line = line(&sheet.garment, piece, along);
         let seen: Vec<egui::Pos2> =
-            line.iter().filter_map(|place| is_seen(&sheet.garment, piece, place, view)).collect();
+            line.iter().filter_map(|place| is_seen(&sheet.garment, piece.panel, place, view)).collect();
         // Only whole arrows: one that goes round the body is seen from one side.
         if seen.len() < line.len() || seen.len() < 2 {
             continue;
@@ -43,6 +47,62 @@ pub(crate) fn arrows(painter: &Painter, view: &ViewportView<'_>, sheet: &Sheet, 
             ));
         }
     }
+}
+
+/// The strokes and singular points of the panels that are picked or under the pointer.
+pub(crate) fn strokes(
+    painter: &Painter,
+    view: &ViewportView<'_>,
+    sheet: &Sheet,
+    chosen: Option<Chosen>,
+    studio: &Context<'_>,
+) {
+    let selection = &*studio.selection;
+    for (panel, of) in sheet.garment.panels.iter().enumerate() {
+        let is_meant = selection.hovered.as_ref() == Some(&of.id) || selection.panels.contains(&of.id);
+        if is_meant && !view.hidden.contains(&panel) {
+            let place = |place: &SurfacePlace| is_seen(&sheet.garment, panel, place, view);
+            let finder = OnGarment { view, sheet };
+            marks::paint(painter, &finder, (&sheet.garment, panel), chosen, place, studio);
+        }
+    }
+}
+
+/// Finds strokes on the garment.
+pub(crate) struct OnGarment<'a> {
+    pub(crate) view: &'a ViewportView<'a>,
+    pub(crate) sheet: &'a Sheet,
+}
+
+impl Finder for OnGarment<'_> {
+    fn place(&self, at: egui::Pos2) -> Option<SurfacePlace> {
+        place_at(self.view, at, &self.sheet.garment)
+    }
+
+    fn line(&self, panel: usize, stroke: &comb::Stroke) -> Vec<egui::Pos2> {
+        let garment = &*self.sheet.garment;
+        let seen = |at: Vec3| {
+            let at = self.view.to_window(at)?;
+            (self.view.rect.contains(at) && self.view.panel_at(at) == Some(panel)).then_some(at)
+        };
+        match (&stroke.path, self.sheet.piece(panel)) {
+            (comb::Path::Pattern(points), Some(piece)) => finer(points)
+                .filter_map(|uv| seen(piece.locator.locate(garment, uv)?.position(garment)))
+                .collect(),
+            (comb::Path::Pattern(_), None) => Vec::new(),
+            (comb::Path::Space(points), _) => points.iter().filter_map(|&at| seen(at)).collect(),
+        }
+    }
+}
+
+/// A line with points between its own where they are few: it is bent on the garment.
+fn finer(points: &[Vec2]) -> impl Iterator<Item = Vec2> {
+    let steps = (LINE_POINTS / points.len().max(1)).max(1);
+    let between = move |ends: &[Vec2]| {
+        let [from, to] = [ends[0], ends[1]];
+        (0..steps).map(move |k| from.lerp(to, k as f32 / steps as f32))
+    };
+    points.windows(2).flat_map(between).chain(points.last().copied())
 }
 
 /// A ring at a place on the garment.
@@ -75,10 +135,10 @@ fn line(garment: &Garment, piece: &Piece, along: Vec2) -> Vec<SurfacePlace> {
 /// Where a place is seen in the window; none where something is before it.
 fn is_seen(
     garment: &Garment,
-    piece: &Piece,
+    panel: usize,
     place: &SurfacePlace,
     view: &ViewportView<'_>,
 ) -> Option<egui::Pos2> {
     let at = view.to_window(place.position(garment))?;
-    (view.rect.contains(at) && view.panel_at(at) == Some(piece.panel)).then_some(at)
+    (view.rect.contains(at) && view.panel_at(at) == Some(panel)).then_some(at)
 }

@@ -1,8 +1,11 @@
 //! The words of the editor.
 
+pub(crate) mod comb;
+
 pub(crate) const NAME: &str = "Grain";
 pub(crate) const PATTERN: &str = "Flat pattern";
 pub(crate) const GRAIN: &str = "Grain";
+pub(crate) const COMB: &str = "Comb";
 pub(crate) const OPENING: &str = "The flat pattern is being laid out.";
 pub(crate) const NO_UVS: &str =
     "The garment has no flat pattern (UVs). Give its panels a direction in the Panel pane.";

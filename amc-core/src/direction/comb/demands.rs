@@ -44,6 +44,7 @@ impl Demands {
             sums: vec![ZERO; count],
             fixed: vec![ZERO; count],
             covered: vec![0.0; count],
+            turns: turns(mesh, comb.turn),
         };
         let on: Vec<usize> = (0..comb.strokes.len()).filter(|&index| comb.strokes[index].is_on).collect();
         let mut spreader = Spreader::new(mesh);
@@ -78,6 +79,17 @@ struct Gathered {
     fixed: Vec<Complex>,
     /// From 0 to 1: how far a vertex belongs to strokes, and so not to elsewhere.
     covered: Vec<f64>,
+    /// The comb's turn at each vertex; empty: none.
+    turns: Vec<Complex>,
+}
+
+/// The turn of a comb at each vertex: where the UVs are mirrored it is the other way round on the surface.
+pub(super) fn turns(mesh: &PanelMesh, turn: f32) -> Vec<Complex> {
+    if turn == 0.0 {
+        return Vec::new();
+    }
+    let (sin, cos) = f64::from(turn).sin_cos();
+    mesh.uv_signs().into_iter().map(|sign| Complex::new(cos, sign * sin)).collect()
 }
 
 impl Gathered {
@@ -92,7 +104,7 @@ impl Gathered {
         let nothing = (0.05 * mesh.mean_edge).powi(2).max(1e-18);
         for found in reached {
             let vertex = found.vertex as usize;
-            let z = power(found.direction, symmetry);
+            let z = power(self.turned(found.vertex, found.direction), symmetry);
             if found.on_line > 0.0 {
                 match hold {
                     Hold::Exact => self.fixed[vertex] += z * (nothing / (found.distance.powi(2) + nothing)),
@@ -117,11 +129,15 @@ impl Gathered {
                 let weight = PULL * 0.5 * (end - start).length() / reach;
                 for vertex in [from, to] {
                     if let Some(direction) = mesh.frames[vertex as usize].direction(end - start) {
-                        self.add(vertex, weight, power(direction, symmetry));
+                        self.add(vertex, weight, power(self.turned(vertex, direction), symmetry));
                     }
                 }
             }
         }
+    }
+
+    fn turned(&self, vertex: u32, direction: Complex) -> Complex {
+        self.turns.get(vertex as usize).map_or(direction, |turn| direction * turn)
     }
 
     fn add_away(&mut self, mesh: &PanelMesh, away: &[Complex], reach: f64, symmetry: u32) {

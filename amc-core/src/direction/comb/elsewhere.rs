@@ -6,11 +6,12 @@ use rayon::prelude::*;
 
 use super::super::field::Procedural;
 use super::Complex;
+use super::demands::turns;
 use super::edges::{ZERO, power};
 use super::frame::{turn, unit};
 use super::lift::along_uv;
 use super::panel_mesh::PanelMesh;
-use super::stroke::Elsewhere;
+use super::stroke::{Comb, Elsewhere};
 
 /// The panel's own direction at each vertex of its mesh, a unit number in its frame: where the garment has several vertices,
 /// one of the directions that are `symmetry`-fold the mean of theirs. `own` is one per vertex of the garment.
@@ -42,10 +43,21 @@ pub(super) fn own(mesh: &PanelMesh, own: &[Vec3], symmetry: u32) -> Vec<Complex>
 }
 
 /// What is asked for away from the strokes, a unit number in each vertex's frame, zero where there is nothing.
-pub(super) fn away(mesh: &PanelMesh, elsewhere: Elsewhere, own: &[Complex]) -> Vec<Complex> {
+pub(super) fn away(mesh: &PanelMesh, comb: &Comb, own: &[Complex]) -> Vec<Complex> {
+    if comb.elsewhere == Elsewhere::Own {
+        return own.to_vec();
+    }
+    let away = before_turn(mesh, comb.elsewhere);
+    if comb.turn == 0.0 {
+        return away;
+    }
+    away.into_iter().zip(turns(mesh, comb.turn)).map(|(direction, turn)| direction * turn).collect()
+}
+
+/// The same before it is turned.
+fn before_turn(mesh: &PanelMesh, elsewhere: Elsewhere) -> Vec<Complex> {
     match elsewhere {
-        Elsewhere::Own => own.to_vec(),
-        Elsewhere::Smooth | Elsewhere::Boundary => vec![ZERO; own.len()],
+        Elsewhere::Own | Elsewhere::Smooth | Elsewhere::Boundary => vec![ZERO; mesh.positions.len()],
         Elsewhere::Field(field) => {
             let field = Procedural::new(field, 0.0);
             let direction = |(frame, &position): (&super::frame::Frame, &Vec3)| {

@@ -111,6 +111,16 @@ impl PanelMesh {
         Some(corners.iter().zip(found.shares).map(|(&corner, share)| corner * share).sum())
     }
 
+    /// Per vertex 1, or -1 where the flat pattern is drawn mirrored.
+    pub(super) fn uv_signs(&self) -> Vec<f64> {
+        let mut areas = vec![0.0; self.positions.len()];
+        for &triangle in if self.has_uvs() { &self.triangles[..] } else { &[] } {
+            let area = uv_area(triangle.map(|vertex| self.uvs[vertex as usize]));
+            triangle.iter().for_each(|&vertex| areas[vertex as usize] += f64::from(area));
+        }
+        areas.into_iter().map(|area: f64| if area < 0.0 { -1.0 } else { 1.0 }).collect()
+    }
+
     /// Finds the nearest point of the surface.
     pub(super) fn in_space(&self) -> &Nearest {
         self.in_space.get_or_init(|| Nearest::new(&self.positions, &self.triangles, |_| true))

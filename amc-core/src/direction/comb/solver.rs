@@ -173,7 +173,7 @@ impl CombSolver {
             )));
         }
         let own = elsewhere::own(&self.mesh, own, symmetry);
-        let away = elsewhere::away(&self.mesh, comb.elsewhere, &own);
+        let away = elsewhere::away(&self.mesh, comb, &own);
         let demands = Demands::new(&self.mesh, comb, symmetry, &away, progress)?;
         Ok(Asked { own, away, demands })
     }

@@ -18,6 +18,26 @@ pub struct Comb {
     /// of e in each. Positive. With [`Elsewhere::Boundary`] it is how loosely the boundary holds; with
     /// [`Elsewhere::Smooth`] it has no meaning.
     pub reach: f32,
+    /// Radians by which the direction is turned from that of strokes, fields and boundary, counter-clockwise in the flat
+    /// pattern (without one: as seen from the front): 0 lays the warp along the strokes, a quarter turn the weft.
+    /// In files, degrees: `turn_deg`.
+    #[serde(rename = "turn_deg", with = "degrees")]
+    pub turn: f32,
+}
+
+/// Radians, written as degrees.
+mod degrees {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    use crate::mesh::extras::shortest_degrees;
+
+    pub(super) fn serialize<S: Serializer>(radians: &f32, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_f64(shortest_degrees(*radians))
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f32, D::Error> {
+        f64::deserialize(from).map(|degrees| degrees.to_radians() as f32)
+    }
 }
 
 /// What a direction follows away from the strokes.
@@ -75,7 +95,7 @@ pub enum Hold {
 
 impl Default for Comb {
     fn default() -> Self {
-        Self { strokes: Vec::new(), elsewhere: Elsewhere::Own, reach: 0.1 }
+        Self { strokes: Vec::new(), elsewhere: Elsewhere::Own, reach: 0.1, turn: 0.0 }
     }
 }
 
@@ -91,6 +111,16 @@ impl Comb {
     /// Shortest radius and reach, metres.
     pub const SHORTEST: f32 = 1e-4;
 
+    /// About how much memory it takes.
+    pub fn bytes(&self) -> usize {
+        let points = |stroke: &Stroke| match &stroke.path {
+            Path::Pattern(points) => size_of_val(&points[..]),
+            Path::Space(points) => size_of_val(&points[..]),
+        };
+        size_of::<Self>()
+            + self.strokes.iter().map(|stroke| size_of::<Stroke>() + points(stroke)).sum::<usize>()
+    }
+
     /// Whether the numbers make sense.
     ///
     /// # Errors
@@ -104,6 +134,9 @@ impl Comb {
             )));
         }
         check_length("the reach", self.reach)?;
+        if !self.turn.is_finite() {
+            return Err(Error::invalid("the turn is not a finite number"));
+        }
         match self.elsewhere {
             Elsewhere::Field(field) => field.check()?,
             Elsewhere::Radial(centre) | Elsewhere::Circular(centre) if !centre.is_finite() => {

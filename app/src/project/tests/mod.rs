@@ -9,9 +9,11 @@ mod settings;
 
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::SystemTime;
 
+use amc_core::direction::comb::{Comb, Elsewhere, Hold, Path as StrokePath, Stroke};
 use amc_core::direction::{Direction, Field, Source};
 use amc_core::render::Laying;
 use amc_core::{Error, Result};
@@ -41,13 +43,25 @@ fn rich(folder: &Path) -> Project {
             picture: Asset::file(folder.join("prints/roses.png")),
             laying: Laying { width: 0.15, turn: 0.3, shift: Vec2::new(0.01, -0.02), is_repeated: false },
         });
-        let choice = PanelChoice { fabric, direction, print, visible: k != 1 };
+        let comb = (k == 1).then(|| Arc::new(comb()));
+        let choice = PanelChoice { fabric, direction, comb, print, visible: k != 1 };
         project.panels.insert(format!("panel-{k}"), choice);
     }
     project.view.set_angles(Angles { yaw: 12.3, pitch: -45.6, roll: 78.9 });
     project.view.zoom = 1.7;
     project.notes = "two \"lines\"\nof Grüße".to_owned();
     project
+}
+
+/// A stroke of each kind.
+fn comb() -> Comb {
+    let flat = StrokePath::Pattern(vec![Vec2::new(0.1, 0.25), Vec2::new(1e-7, -0.3)]);
+    let free = StrokePath::Space(vec![Vec3::new(0.1, 1.7, 0.3), Vec3::ZERO]);
+    let strokes = vec![
+        Stroke { path: flat, hold: Hold::Exact, radius: 0.03, is_on: true },
+        Stroke { path: free, hold: Hold::Soft(0.7), radius: 0.11, is_on: false },
+    ];
+    Comb { strokes, elsewhere: Elsewhere::Circular(Vec2::new(0.2, 0.1)), reach: 0.07, turn: 0.3 }
 }
 
 /// Writes the files that [`rich`] names.

@@ -13,6 +13,22 @@ use crate::studio::welcome::{Chosen, Step};
 const OF_TEXTS: [egui::Key; 6] =
     [egui::Key::A, egui::Key::C, egui::Key::V, egui::Key::X, egui::Key::Y, egui::Key::Z];
 
+/// By these keys, without others, whatever has the keyboard is worked.
+const OF_WIDGETS: [egui::Key; 12] = [
+    egui::Key::ArrowDown,
+    egui::Key::ArrowLeft,
+    egui::Key::ArrowRight,
+    egui::Key::ArrowUp,
+    egui::Key::Backspace,
+    egui::Key::End,
+    egui::Key::Enter,
+    egui::Key::Home,
+    egui::Key::PageDown,
+    egui::Key::PageUp,
+    egui::Key::Space,
+    egui::Key::Tab,
+];
+
 impl App {
     pub(super) fn run(&mut self, wanted: Wanted, ui: &egui::Ui) {
         match wanted {
@@ -26,9 +42,7 @@ impl App {
                 let pane = Pane::Plugin { plugin: plugin.to_owned(), pane: pane.to_owned() };
                 dock::bring_forward(&mut self.layout, &pane);
             }
-            Wanted::Tool { plugin, tool } => {
-                self.tool = if self.tool == Some((plugin, tool)) { None } else { Some((plugin, tool)) };
-            }
+            Wanted::Tool { plugin, tool } => self.take(plugin, tool),
             Wanted::Plugin { plugin, command } => self.with_context(|registry, studio| {
                 if let Some(plugin) = registry.get_mut(plugin) {
                     plugin.call(studio, |plugin, studio| {
@@ -139,10 +153,10 @@ impl App {
         }
         let (focused, in_text) = (ui.egui_wants_keyboard_input(), ui.text_edit_focused());
         let fires = |shortcut: &egui::KeyboardShortcut| {
-            // Letters alone are for whoever has the keyboard, and a text is edited by its own keys.
-            let plain = !shortcut.modifiers.command && !shortcut.modifiers.alt;
-            let edits_text = in_text && OF_TEXTS.contains(&shortcut.logical_key);
-            let is_theirs = edits_text || focused && plain;
+            // A text is edited by letters and by its own keys; what else has the keyboard is worked by a few.
+            let (key, plain) = (shortcut.logical_key, !shortcut.modifiers.command && !shortcut.modifiers.alt);
+            let edits_text = in_text && (plain || OF_TEXTS.contains(&key));
+            let is_theirs = edits_text || focused && plain && OF_WIDGETS.contains(&key);
             !is_theirs && ui.input_mut(|input| input.consume_shortcut(shortcut))
         };
         // Those with more modifiers first: what is pressed with Shift is not what is pressed without.

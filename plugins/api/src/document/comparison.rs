@@ -1,6 +1,8 @@
 //! The other half of a split view.
 
-use amc_core::direction::Direction;
+use std::sync::Arc;
+
+use amc_core::direction::{Direction, PanelDirection};
 use serde::{Deserialize, Serialize};
 
 use super::FabricId;
@@ -22,13 +24,18 @@ impl Comparison {
     /// is there to be worn.
     pub fn look(
         &self,
-        worn: (Option<FabricId>, Direction),
+        worn: (Option<FabricId>, PanelDirection),
         is_used: impl FnOnce(FabricId) -> bool,
-    ) -> (Option<FabricId>, Direction) {
-        let (fabric, direction) = worn;
+    ) -> (Option<FabricId>, PanelDirection) {
+        let (fabric, mut direction) = worn;
         let other = self.fabric.filter(|&id| is_used(id));
-        let angle = direction.angle + self.turned_deg.to_radians();
-        (fabric.map(|own| other.unwrap_or(own)), Direction { angle, ..direction })
+        let turn = self.turned_deg.to_radians();
+        let angle = direction.own.angle + turn;
+        direction.own = Direction { angle, ..direction.own };
+        if let Some(comb) = direction.comb.as_mut().filter(|_| turn != 0.0) {
+            Arc::make_mut(comb).turn += turn;
+        }
+        (fabric.map(|own| other.unwrap_or(own)), direction)
     }
 
     /// Whether panels look other than they do left of the divider, the shading mode aside.
@@ -44,16 +51,16 @@ mod tests {
     #[test]
     fn fabrics_and_directions_are_exchanged_where_there_is_cloth() {
         let [own, other, gone] = [0, 1, 2].map(FabricId::new);
-        let direction = Direction { angle: 0.25, ..Direction::default() };
+        let direction = PanelDirection::plain(Direction { angle: 0.25, ..Direction::default() });
         let quarter = Comparison { turned_deg: 90.0, fabric: Some(other), ..Comparison::default() };
-        let (fabric, turned) = quarter.look((Some(own), direction), |id| id == other);
+        let (fabric, turned) = quarter.look((Some(own), direction.clone()), |id| id == other);
         assert_eq!(fabric, Some(other));
-        assert!((turned.angle - direction.angle - std::f32::consts::FRAC_PI_2).abs() < 1e-6);
-        assert_eq!(turned.source, direction.source);
+        assert!((turned.own.angle - direction.own.angle - std::f32::consts::FRAC_PI_2).abs() < 1e-6);
+        assert_eq!(turned.own.source, direction.own.source);
         // Buttons stay buttons.
-        assert_eq!(quarter.look((None, direction), |_| true).0, None);
+        assert_eq!(quarter.look((None, direction.clone()), |_| true).0, None);
         let lost = Comparison { fabric: Some(gone), ..Comparison::default() };
-        assert_eq!(lost.look((Some(own), direction), |id| id == other), (Some(own), direction));
+        assert_eq!(lost.look((Some(own), direction.clone()), |id| id == other), (Some(own), direction));
         assert!(!Comparison::default().changes_panels() && quarter.changes_panels());
     }
 }

@@ -2,8 +2,10 @@
 
 use std::f32::consts::{PI, TAU};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use amc_core::direction::Direction;
+use amc_core::direction::comb::Comb;
 use amc_core::mesh::Unit;
 use amc_core::render::Laying;
 use amc_core::{Error, Result};
@@ -36,12 +38,21 @@ pub enum Edit {
         /// None: along the grain.
         direction: Option<Direction>,
     },
-    /// Each panel's direction turned from what it is now; a quarter turn swaps warp and weft.
+    /// Each panel's direction turned from what it is now, combed or not; a quarter turn swaps warp and weft.
     TurnDirection {
         /// The panels, each with its direction now (which whoever knows the grain can say).
         panels: Vec<(String, Direction)>,
         /// Radians, counter-clockwise in the flat pattern.
         by: f32,
+    },
+    /// The strokes that comb a panel's direction.
+    SetComb {
+        /// The panel.
+        panel: String,
+        /// None: no strokes.
+        comb: Option<Arc<Comb>>,
+        /// What the person did, for the history: "Draw a stroke".
+        what: String,
     },
     /// Whether the panels are drawn.
     SetVisible {
@@ -104,8 +115,17 @@ impl Edit {
             Self::TurnDirection { panels, by } => {
                 for (panel, now) in panels {
                     let turned = Direction { angle: wrapped(now.angle + by), ..now };
-                    choose(project, vec![panel], |choice| choice.direction = Some(turned));
+                    choose(project, vec![panel], |choice| {
+                        choice.direction = Some(turned);
+                        if let Some(comb) = &mut choice.comb {
+                            let turn = wrapped(comb.turn + by);
+                            Arc::make_mut(comb).turn = turn;
+                        }
+                    });
                 }
+            }
+            Self::SetComb { panel, comb, .. } => {
+                choose(project, vec![panel], |choice| choice.comb.clone_from(&comb));
             }
             Self::SetVisible { panels, visible } => {
                 choose(project, panels, |choice| choice.visible = visible)

@@ -35,7 +35,7 @@ impl Edit {
             Self::SetPrint { panels, print: None } => format!("Take the print off {}", counted(panels.len())),
             Self::LayPrint { panels, .. } => format!("Move the print of {}", counted(panels.len())),
             Self::SetNotes(_) => "Edit the notes".to_owned(),
-            Self::SetPluginState { what, .. } => what.clone(),
+            Self::SetPluginState { what, .. } | Self::SetComb { what, .. } => what.clone(),
             Self::Relocate { old, .. } => format!("Locate {}", Asset::file(old.as_path()).name()),
         }
     }

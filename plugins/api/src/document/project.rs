@@ -1,7 +1,9 @@
 //! A project: plain data, and what must be true of it.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
+use amc_core::direction::comb::Comb;
 use amc_core::direction::{Direction, Field, Source};
 use amc_core::mesh::{Panel, Unit};
 use amc_core::{Error, Result};
@@ -40,6 +42,8 @@ pub struct PanelChoice {
     pub fabric: Option<Option<FabricId>>,
     /// Its direction; none: along its grain.
     pub direction: Option<Direction>,
+    /// The strokes that comb its direction.
+    pub comb: Option<Arc<Comb>>,
     /// The print over its fabric.
     pub print: Option<PanelPrint>,
     /// Whether it is drawn.
@@ -48,7 +52,7 @@ pub struct PanelChoice {
 
 impl Default for PanelChoice {
     fn default() -> Self {
-        Self { fabric: None, direction: None, print: None, visible: true }
+        Self { fabric: None, direction: None, comb: None, print: None, visible: true }
     }
 }
 
@@ -126,6 +130,11 @@ impl Project {
             },
             None => PanelLook { fabric, direction: None, visible: true },
         }
+    }
+
+    /// The strokes that comb the panel of this id.
+    pub fn comb(&self, panel: &str) -> Option<&Arc<Comb>> {
+        self.panels.get(panel)?.comb.as_ref()
     }
 
     /// The print on the panel of this id.
@@ -235,6 +244,7 @@ impl Project {
             if choice.direction.is_some_and(|direction| !is_finite(direction)) {
                 return Err(place(Error::invalid("its direction is not a finite number")));
             }
+            choice.comb.as_ref().map_or(Ok(()), |comb| comb.check()).map_err(place)?;
             choice.print.as_ref().map_or(Ok(()), PanelPrint::check).map_err(place)?;
         }
         Ok(())
@@ -249,7 +259,8 @@ impl Project {
         let fabrics = self.fabrics.iter().map(|fabric| size_of::<FabricInUse>() + fabric.name.len());
         let entry = size_of::<(String, PanelChoice)>();
         // Nodes of the tree are at least half full.
-        let panels = self.panels.keys().map(|id| 2 * entry + id.len());
+        let strokes = |choice: &PanelChoice| choice.comb.as_ref().map_or(0, |comb| comb.bytes());
+        let panels = self.panels.iter().map(|(id, choice)| 2 * entry + id.len() + strokes(choice));
         size_of::<Self>()
             + self.assets().map(asset).sum::<usize>()
             + fabrics.sum::<usize>()

@@ -4,6 +4,7 @@ pub(crate) mod camera;
 mod paint;
 
 use amc_core::direction::Direction;
+use amc_core::direction::comb::{Path, Stroke};
 use amc_core::mesh::SurfacePlace;
 use egui::{CursorIcon, Rect, Response, Sense, pos2, vec2};
 use glam::Vec2;
@@ -11,9 +12,10 @@ use studio_plugin::Context;
 use studio_plugin::document::Gesture;
 
 use self::camera::Camera;
+use crate::comb::{self, Finder, Stylus};
 use crate::grain;
 use crate::sheet::{Piece, Sheet, line};
-use crate::texts;
+use crate::texts::{self, comb as comb_texts};
 
 /// How near the pointer must be to an edge or a seam, points.
 const REACH: f32 = 7.0;
@@ -71,7 +73,7 @@ impl PatternPane {
         &mut self,
         ui: &mut egui::Ui,
         sheet: &Sheet,
-        picked_edge: &mut Option<PickedEdge>,
+        (picked_edge, stylus): (&mut Option<PickedEdge>, &mut Stylus),
         marked: Option<SurfacePlace>,
         studio: &mut Context<'_>,
     ) -> Option<SurfacePlace> {
@@ -79,32 +81,58 @@ impl PatternPane {
             if ui.button(texts::FIT_BUTTON).on_hover_text(texts::FIT_TIP).clicked() {
                 self.fit();
             }
-            ui.weak(texts::SHORT_HELP).on_hover_text(texts::HELP);
+            let is_combing = studio.holds(comb::TOOL);
+            let draw = ui.selectable_label(is_combing, comb_texts::DRAW).on_hover_text(comb_texts::DRAW_TIP);
+            if draw.clicked() {
+                studio.take(comb::TOOL);
+            }
+            if !is_combing {
+                ui.weak(texts::SHORT_HELP).on_hover_text(texts::HELP);
+            }
         });
         let (pane, background) =
             ui.allocate_exact_size(ui.available_size().max(vec2(40.0, 40.0)), Sense::click_and_drag());
         let mut camera = self.camera.unwrap_or_else(|| Camera::fit(sheet.size, pane.size()));
-        self.move_camera(ui, &mut camera, pane, &background);
+        let is_combing = studio.holds(comb::TOOL);
+        self.move_camera(ui, &mut camera, pane, (&background, is_combing));
         let pointer = ui
             .input(|input| input.pointer.hover_pos())
             .filter(|at| pane.contains(*at) && background.contains_pointer());
         let at = pointer.map(|at| camera.to_sheet(at, pane));
         let under = at.map(|at| under(sheet, at, REACH / camera.scale)).unwrap_or_default();
-        if background.clicked() {
+        let finder = OnSheet { sheet, camera, pane };
+        if is_combing {
+            stylus.use_in(&background, &finder, sheet, studio);
+        } else if background.clicked() {
             *picked_edge = click(ui, sheet, under, studio);
         }
         pick(ui, sheet, (camera, pane), under, studio);
-        self.turn_arrows(ui, sheet, (camera, pane), studio);
+        if !is_combing {
+            self.turn_arrows(ui, sheet, (camera, pane), studio);
+        }
         let marked_at = marked.and_then(|place| on_sheet(sheet, &place));
         let seen = paint::Seen { under, picked_edge: picked_edge.as_ref(), marked: marked_at };
         paint::paint(&ui.painter_at(pane), sheet, (camera, pane), &seen, ui.visuals(), studio);
+        let place = |place: &SurfacePlace| Some(camera.to_window(on_sheet(sheet, place)?, pane));
+        for piece in &sheet.pieces {
+            let panel = (&*sheet.garment, piece.panel);
+            comb::marks::paint(&ui.painter_at(pane), &finder, panel, stylus.chosen, place, studio);
+        }
         let piece = &sheet.pieces[under.piece?];
         piece.locator.locate(&sheet.garment, piece.uv_to_sheet.inverse().transform_point2(at?))
     }
 
-    fn move_camera(&mut self, ui: &egui::Ui, camera: &mut Camera, pane: Rect, background: &Response) {
+    fn move_camera(
+        &mut self,
+        ui: &egui::Ui,
+        camera: &mut Camera,
+        pane: Rect,
+        (background, is_combing): (&Response, bool),
+    ) {
         let before = *camera;
-        if background.dragged() {
+        // The left button is the comb's while it is in the hand.
+        let is_tool = is_combing && background.dragged_by(egui::PointerButton::Primary);
+        if background.dragged() && !is_tool {
             camera.pan(background.drag_delta());
         }
         if let Some(at) = background.hover_pos() {
@@ -117,7 +145,7 @@ impl PatternPane {
         if *camera != before {
             self.camera = Some(*camera);
         }
-        if background.double_clicked() {
+        if background.double_clicked() && !is_combing {
             self.camera = None;
         }
     }
@@ -169,6 +197,32 @@ impl PatternPane {
             if response.drag_stopped() {
                 self.dragged = None;
             }
+        }
+    }
+}
+
+/// Finds strokes on the sheet.
+struct OnSheet<'a> {
+    sheet: &'a Sheet,
+    camera: Camera,
+    pane: Rect,
+}
+
+impl Finder for OnSheet<'_> {
+    fn place(&self, at: egui::Pos2) -> Option<SurfacePlace> {
+        let at = self.camera.to_sheet(at, self.pane);
+        let piece = self.sheet.pieces.iter().find(|piece| piece.holds(at))?;
+        piece.locator.locate(&self.sheet.garment, piece.uv_to_sheet.inverse().transform_point2(at))
+    }
+
+    fn line(&self, panel: usize, stroke: &Stroke) -> Vec<egui::Pos2> {
+        match (&stroke.path, self.sheet.piece(panel)) {
+            (Path::Pattern(points), Some(piece)) => {
+                let place =
+                    |&uv: &Vec2| self.camera.to_window(piece.uv_to_sheet.transform_point2(uv), self.pane);
+                points.iter().map(place).collect()
+            }
+            _ => Vec::new(),
         }
     }
 }

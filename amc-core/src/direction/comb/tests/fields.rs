@@ -299,3 +299,25 @@ fn of_equal_directions_neighbours_have_the_same() {
         }
     }
 }
+
+#[test]
+fn a_turned_comb_turns_its_field_as_the_pattern_is_drawn() {
+    let bent = |p: Vec2| Vec3::new(p.x, p.y, 0.1 * (5.0 * p.x).sin());
+    let mirrored = |mut mesh: Mesh| {
+        mesh.uvs.as_mut().unwrap().iter_mut().for_each(|uv| uv.x = 1.0 - uv.x);
+        mesh
+    };
+    for (mesh, sign) in [(grid(12, bent), 1.0), (mirrored(grid(12, bent)), -1.0)] {
+        let garment = garment_of(&[mesh]);
+        for elsewhere in [Elsewhere::Smooth, Elsewhere::Boundary, Elsewhere::Circular(Vec2::splat(0.3))] {
+            let straight = comb(elsewhere, vec![stroke(&[[0.2, 0.3], [0.7, 0.4]])]);
+            let turned = Comb { turn: 0.7, ..straight.clone() };
+            let [straight, turned] = [straight, turned].map(|comb| combed(&garment, &comb, 2, Vec3::X));
+            let triples = straight.directions.iter().zip(&turned.directions).zip(&garment.normals);
+            for ((&before, &after), &normal) in triples {
+                let expected = Quat::from_axis_angle(normal, sign * 0.7) * before;
+                assert!(apart(expected, after, 2) < 0.5, "{elsewhere:?} {sign}: {expected} {after}");
+            }
+        }
+    }
+}

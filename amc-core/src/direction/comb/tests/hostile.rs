@@ -32,7 +32,12 @@ fn survives(garment: &Garment) {
     ];
     let reaches = [Comb::SHORTEST, 0.1, Comb::LONGEST];
     for (round, elsewhere) in elsewheres.into_iter().cycle().take(12).enumerate() {
-        let comb = Comb { strokes: strokes(), elsewhere, reach: reaches[(round + round / 6) % 3] };
+        let comb = Comb {
+            strokes: strokes(),
+            elsewhere,
+            reach: reaches[(round + round / 6) % 3],
+            ..Comb::default()
+        };
         if let Ok(field) = solver.solve(&comb, round as u32 % 4 + 1, &own, Progress::none()) {
             assert_sound(garment, &field);
         }

@@ -110,7 +110,7 @@ fn solver(garment: &Garment) -> CombSolver {
 }
 
 fn comb(elsewhere: Elsewhere, strokes: Vec<Stroke>) -> Comb {
-    Comb { strokes, elsewhere, reach: 0.1 }
+    Comb { strokes, elsewhere, reach: 0.1, turn: 0.0 }
 }
 
 /// An exact stroke through points of the flat pattern, narrower than any triangle.

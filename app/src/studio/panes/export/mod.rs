@@ -6,6 +6,7 @@ mod settings;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use amc_core::direction::combed_tangents;
 use amc_core::mesh::Garment;
 use amc_core::render::{Bounds, Cloth, Drawing, Shading};
 use amc_core::{Progress, Result};
@@ -175,12 +176,13 @@ impl Export {
         let name = texts::exporting(file.file_name().unwrap_or(file.as_os_str()).to_string_lossy());
         let job = studio.jobs.start(name.clone(), move |progress| {
             let order = order(stand(&project, &garment)?);
-            let looks = document_looks(&project, &garment, |id| fabrics.contains_key(&id));
+            let looks = document_looks(&project, &garment, &fabrics);
             let outfit = Outfit { looks, prints: worn_prints(&project, &garment, &prints), fabrics };
             let occlusion = occlusion(&garment, &order.shading, progress)?;
             let upright = garment.normals.clone();
             let plain = Drawing::new(&garment, upright, occlusion.as_deref(), Vec::new(), |_| Cloth::Plain)?;
-            let drawing = dressed(&plain, &garment, &outfit)?;
+            let tangents = combed_tangents(&garment, &outfit.directions(), *progress)?;
+            let drawing = dressed(&plain, &garment, &outfit, &tangents.vectors)?;
             let mut painter = Painter::new(device, drawing, &hidden_panels(&project, &garment))?;
             order.carry_out(&mut painter, progress)
         });

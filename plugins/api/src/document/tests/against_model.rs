@@ -1,6 +1,9 @@
 //! Random sequences of 10,000 commands against a plain model: a list of all projects there were, and for each edit what
 //! it does to a handful of panels.
 
+use std::sync::Arc;
+
+use amc_core::direction::comb::Comb;
 use amc_core::mesh::Unit;
 use amc_core::render::Laying;
 
@@ -35,6 +38,8 @@ struct Plain {
     fabrics: Vec<u32>,
     /// Per panel: chosen fabric (-2 default, -1 grey), angle, visible, width of the print.
     panels: [(i64, Option<f32>, bool, Option<f32>); PANELS.len()],
+    /// Per panel: how far its comb is turned; none: not combed.
+    combed: [Option<f32>; PANELS.len()],
     notes: String,
     /// What a plugin keeps.
     kept: Option<usize>,
@@ -48,6 +53,7 @@ impl Plain {
             unit: Unit::Metre,
             fabrics: vec![0],
             panels,
+            combed: [None; PANELS.len()],
             notes: String::new(),
             kept: None,
         }
@@ -67,7 +73,10 @@ impl Plain {
             look.fabric.map(FabricId::number) == worn(chosen)
                 && (is_turned, look.visible, printed) == (angle, visible, print)
         });
+        let combed =
+            PANELS.iter().zip(&self.combed).all(|(name, turn)| project.comb(name).map(|it| it.turn) == *turn);
         looks
+            && combed
             && fabrics == self.fabrics
             && project.garment == Asset::Bundled(self.garment.clone())
             && project.unit == self.unit
@@ -81,7 +90,7 @@ impl Plain {
         let mut after = self.clone();
         let chosen: Vec<usize> = (0..PANELS.len()).filter(|_| random.chance(2)).collect();
         let names: Vec<String> = chosen.iter().map(|&k| PANELS[k].to_owned()).collect();
-        let edit = match random.below(12) {
+        let edit = match random.below(13) {
             0 => {
                 after.unit = Unit::Metre;
                 after.garment = ["garment:shirt", "shape:sheet", "garment:scarf"][random.below(3)].to_owned();
@@ -131,7 +140,10 @@ impl Plain {
                 let now = self.panels[panel].1.unwrap_or(0.25);
                 // Within half a turn and exact in binary.
                 let by = [0.0, if now > 0.0 { -1.25 } else { 0.5 }][random.below(2)];
+                let is_far = |turn: f32| (turn + by).abs() > 3.0;
+                let by = if after.combed[panel].is_some_and(is_far) { 0.0 } else { by };
                 after.panels[panel].1 = Some(now + by);
+                after.combed[panel] = after.combed[panel].map(|turn| turn + by);
                 turn(PANELS[panel], now, by)
             }
             6 => {
@@ -154,6 +166,20 @@ impl Plain {
                 chosen.iter().for_each(|&k| after.panels[k].3 = width);
                 let edit = Edit::SetPrint { panels: names, print };
                 if width == Some(200.0) && !chosen.is_empty() {
+                    return (edit, None);
+                }
+                edit
+            }
+            11 => {
+                let panel = random.below(PANELS.len());
+                let reach = [0.1, -1.0][usize::from(random.chance(4))];
+                let comb =
+                    (!random.chance(3)).then(|| Arc::new(Comb { reach, turn: 0.25, ..Comb::default() }));
+                let is_bad = comb.is_some() && reach < 0.0;
+                after.combed[panel] = comb.as_ref().map(|comb| comb.turn);
+                let (name, what) = (PANELS[panel].to_owned(), "Comb".to_owned());
+                let edit = Edit::SetComb { panel: name, comb, what };
+                if is_bad {
                     return (edit, None);
                 }
                 edit
