@@ -27,7 +27,7 @@ fn button(pos: Pos2, pressed: bool) -> Event {
 }
 
 /// Drags from one point to another, in a few moves.
-fn drag(harness: &mut Harness<'_, App>, from: Pos2, to: Pos2) {
+pub(super) fn drag(harness: &mut Harness<'_, App>, from: Pos2, to: Pos2) {
     harness.event(Event::PointerMoved(from));
     harness.step();
     harness.event(button(from, true));

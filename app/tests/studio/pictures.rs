@@ -26,6 +26,23 @@ fn sized(size: [f32; 2], theme: egui::Theme, folder: &Path) -> Harness<'static, 
     harness
 }
 
+/// Draws a few strokes on the left front.
+fn comb(harness: &mut Harness<'_, App>) {
+    harness.get_by(|node| node.label().is_some_and(|label| label.starts_with("left front"))).click();
+    settle(harness);
+    press(harness, Modifiers::NONE, Key::B);
+    show_tab(harness, "Flat pattern");
+    let named = |node: &egui_kittest::kittest::AccessKitNode<'_>| {
+        node.label().is_some_and(|label| label.starts_with("Piece left front,"))
+    };
+    let rect = harness.get_by(named).rect();
+    let at = |x: f32, y: f32| rect.lerp_inside(egui::vec2(x, y));
+    for [from, to] in [[at(0.25, 0.85), at(0.7, 0.75)], [at(0.25, 0.55), at(0.7, 0.65)]] {
+        super::directions::drag(harness, from, to);
+    }
+    show_tab(harness, "Comb");
+}
+
 #[test]
 #[ignore = "writes pictures, asserts nothing about them"]
 fn pictures_of_the_window() {
@@ -44,6 +61,9 @@ fn pictures_of_the_window() {
     harness.get_by(|node| node.label().is_some_and(|label| label.starts_with("left front"))).click();
     settle(&mut harness);
     save(&mut harness, "guide/pictures/panel.png");
+    comb(&mut harness);
+    save(&mut harness, "guide/pictures/comb.png");
+    press(&mut harness, Modifiers::NONE, Key::Escape);
     press(&mut harness, Modifiers::COMMAND, Key::Comma);
     click(&mut harness, "Shortcuts");
     save(&mut harness, "guide/pictures/shortcuts.png");

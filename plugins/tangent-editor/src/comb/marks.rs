@@ -47,7 +47,7 @@ fn paint_stroke(painter: &Painter, line: &[Pos2], (is_chosen, is_on): (bool, boo
     let way = (*tip - *before).normalized();
     let color = match (is_chosen, is_on) {
         (true, _) => visuals.selection.bg_fill,
-        (false, true) => visuals.hyperlink_color,
+        (false, true) => visuals.strong_text_color(),
         (false, false) => visuals.weak_text_color(),
     };
     let layers = [(5.0, visuals.extreme_bg_color), (2.5, color)];

@@ -30,7 +30,8 @@ impl CombPane {
         let garment = &*sheet.garment;
         let holds = studio.holds(TOOL);
         ui.horizontal_wrapped(|ui| {
-            if ui.selectable_label(holds, texts::DRAW).on_hover_text(texts::DRAW_TIP).clicked() {
+            let draw = ui.add(egui::Button::new(texts::DRAW).selected(holds));
+            if draw.on_hover_text(texts::DRAW_TIP).clicked() {
                 studio.take(TOOL);
             }
         });
@@ -140,7 +141,8 @@ impl CombPane {
         ui.horizontal(|ui| {
             let label = ui.label(texts::ELSEWHERE);
             let shown = now.map_or(texts::OTHER, Away::name);
-            let list = egui::ComboBox::from_id_salt("elsewhere").selected_text(shown).show_ui(ui, |ui| {
+            let list = egui::ComboBox::from_id_salt("elsewhere").selected_text(shown);
+            let list = list.width(ui.available_width()).truncate().show_ui(ui, |ui| {
                 for away in Away::ALL {
                     let is_there = is_flat(sheet, panel) || !matches!(away, Away::Radial | Away::Circular);
                     let item = egui::Button::selectable(now == Some(away), away.name());

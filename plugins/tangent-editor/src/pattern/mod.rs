@@ -82,8 +82,8 @@ impl PatternPane {
                 self.fit();
             }
             let is_combing = studio.holds(comb::TOOL);
-            let draw = ui.selectable_label(is_combing, comb_texts::DRAW).on_hover_text(comb_texts::DRAW_TIP);
-            if draw.clicked() {
+            let draw = ui.add(egui::Button::new(comb_texts::DRAW).selected(is_combing));
+            if draw.on_hover_text(comb_texts::DRAW_TIP).clicked() {
                 studio.take(comb::TOOL);
             }
             if !is_combing {
