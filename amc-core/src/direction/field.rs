@@ -9,9 +9,11 @@ use crate::{Error, Result};
 const LEAST_SINE: f32 = 1e-5;
 
 impl Field {
+    /// Whether it has a direction anywhere.
+    ///
     /// # Errors
     /// A number that is not finite, or an axis of length zero.
-    pub(super) fn check(self) -> Result<()> {
+    pub fn check(self) -> Result<()> {
         let (origin, axis) = match self {
             Self::Around { origin, direction } => (origin, direction),
             Self::Along { direction } => (Vec3::ZERO, direction),

@@ -7,11 +7,15 @@ pub mod comb;
 mod field;
 mod fill;
 mod kept;
+mod orientation;
+mod record;
 mod tangents;
 #[cfg(test)]
 pub(crate) mod tests;
 
 pub use kept::{Fineness, KeptTangents, PanelDirection, combed_tangents};
+pub use orientation::Orientation;
+pub use record::Record;
 pub use tangents::{Tangents, tangents};
 
 use glam::{Mat2, Vec2, Vec3};

@@ -1,5 +1,6 @@
 //! A glTF 2.0 binary of one mesh and one node per panel.
 
+use std::collections::BTreeSet;
 use std::io::Write;
 
 use bytemuck::Pod;
@@ -23,6 +24,9 @@ pub(super) struct Glb {
     views: Vec<Value>,
     accessors: Vec<Value>,
     meshes: Vec<Value>,
+    materials: Vec<Value>,
+    /// The view of each picture; there is one texture for each.
+    pictures: Vec<usize>,
 }
 
 /// What a panel has beyond positions and normals.
@@ -44,8 +48,30 @@ impl Glb {
         self.add(to, name, "VEC2", &uvs);
     }
 
+    /// Appends a material, unless the same is there already; returns its index.
+    pub(super) fn add_material(&mut self, material: Value) -> usize {
+        let known = self.materials.iter().position(|other| *other == material);
+        known.unwrap_or_else(|| {
+            self.materials.push(material);
+            self.materials.len() - 1
+        })
+    }
+
+    /// Appends a PNG file as a texture; returns its index.
+    pub(super) fn add_texture(&mut self, png: &[u8]) -> usize {
+        let view = self.view(png, None);
+        self.pictures.push(view);
+        self.pictures.len() - 1
+    }
+
     /// Appends a panel as a mesh of one primitive.
-    pub(super) fn add_panel(&mut self, mesh: &PanelMesh<'_>, attributes: Attributes, extras: Value) {
+    pub(super) fn add_panel(
+        &mut self,
+        mesh: &PanelMesh<'_>,
+        attributes: Attributes,
+        material: usize,
+        extras: Value,
+    ) {
         let mut all = json!({ "POSITION": self.positions(&mesh.positions) });
         let normals = self.accessor(&mesh.normals, FLOAT, "VEC3", ARRAY_BUFFER);
         all["NORMAL"] = json!(normals);
@@ -55,23 +81,30 @@ impl Glb {
         let indices = self.indices(mesh.triangles.as_flattened(), mesh.positions.len());
         self.meshes.push(json!({
             "name": mesh.panel.name,
-            "primitives": [{ "attributes": all, "indices": indices, "material": 0, "extras": extras }],
+            "primitives": [{ "attributes": all, "indices": indices, "material": material, "extras": extras }],
         }));
     }
 
     /// Appends items as a view and an accessor of their own; returns the accessor's index.
     fn accessor<T: Pod>(&mut self, items: &[T], component: u32, kind: &str, target: u32) -> usize {
-        let bytes: &[u8] = bytemuck::cast_slice(items);
+        let view = self.view(bytemuck::cast_slice(items), Some(target));
         self.accessors.push(json!({
-            "bufferView": self.views.len(), "componentType": component, "type": kind, "count": items.len()
+            "bufferView": view, "componentType": component, "type": kind, "count": items.len()
         }));
-        self.views.push(json!({
-            "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len(), "target": target
-        }));
+        self.accessors.len() - 1
+    }
+
+    /// Appends bytes as a view; returns its index.
+    fn view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
+        let mut view = json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() });
+        if let Some(target) = target {
+            view["target"] = json!(target);
+        }
+        self.views.push(view);
         self.bytes.extend_from_slice(bytes);
         // A view of floats begins at a multiple of four bytes.
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
-        self.accessors.len() - 1
+        self.views.len() - 1
     }
 
     /// Positions have their accessor say the least and largest of each component.
@@ -94,6 +127,12 @@ impl Glb {
         }
     }
 
+    /// The names of the extensions that materials have.
+    fn extensions(&self) -> BTreeSet<&str> {
+        let all = self.materials.iter().filter_map(|material| material["extensions"].as_object());
+        all.flat_map(|extensions| extensions.keys().map(String::as_str)).collect()
+    }
+
     /// Writes the file.
     ///
     /// # Errors
@@ -105,18 +144,29 @@ impl Glb {
         let nodes: Vec<Value> = (self.meshes.iter().enumerate())
             .map(|(index, mesh)| json!({"name": mesh["name"], "mesh": index}))
             .collect();
-        let document = json!({
+        let mut document = json!({
             "asset": {"version": "2.0", "generator": GENERATOR},
             "scene": 0,
             "scenes": [{"nodes": (0..nodes.len()).collect::<Vec<_>>()}],
             "nodes": nodes,
             "meshes": self.meshes,
-            // Cloth is seen from both sides.
-            "materials": [{"name": "cloth", "doubleSided": true}],
+            "materials": self.materials,
             "accessors": self.accessors,
             "bufferViews": self.views,
             "buffers": [{"byteLength": self.bytes.len()}],
         });
+        // glTF has no empty lists.
+        if !self.pictures.is_empty() {
+            let pictures = self.pictures.iter();
+            document["images"] =
+                pictures.map(|view| json!({ "bufferView": view, "mimeType": "image/png" })).collect();
+            document["textures"] =
+                (0..self.pictures.len()).map(|source| json!({ "source": source })).collect();
+        }
+        let extensions = self.extensions();
+        if !extensions.is_empty() {
+            document["extensionsUsed"] = json!(extensions);
+        }
         let mut text = document.to_string().into_bytes();
         text.resize(text.len().next_multiple_of(4), b' ');
         let length = |bytes: usize| u32::try_from(bytes).map_err(|_| too_large());
@@ -134,6 +184,11 @@ impl Glb {
         }
         Ok(())
     }
+}
+
+/// A material without any property of its own. Cloth is seen from both sides.
+pub(super) fn plain_material(name: &str) -> Value {
+    json!({ "name": name, "doubleSided": true })
 }
 
 /// Refuses meshes that cannot be written, before a buffer is made of them.

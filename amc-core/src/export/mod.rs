@@ -6,7 +6,7 @@ mod glb;
 mod obj;
 mod panel_mesh;
 
-pub use directions::tangents;
+pub use directions::{Said, tangents};
 pub use garment::garment;
 
 use crate::mesh::Garment;

@@ -69,13 +69,20 @@ impl Extras {
 
     /// What is to be said of a panel; partners go by their names.
     pub(crate) fn of(garment: &Garment, panel: &Panel) -> Self {
+        Self::moved(garment, panel, |_, at| at)
+    }
+
+    /// The same where the UVs are moved: `place` says where a point of the panel of a number comes to lie. Grain and unit are
+    /// those of the panel as it was.
+    pub(crate) fn moved(garment: &Garment, panel: &Panel, place: impl Fn(usize, Vec2) -> Vec2) -> Self {
+        let index = garment.panels.iter().position(|other| other.id == panel.id).unwrap_or_default();
         let name = |panel: usize| garment.panels.get(panel).map(|panel| panel.name.clone());
         let seam = |seam: &Seam<usize>| {
             Some(SeamExtras {
                 name: seam.name.clone(),
-                edge: seam.edge,
+                edge: seam.edge.map(|at| place(index, at)),
                 partner: name(seam.partner)?,
-                partner_edge: seam.partner_edge,
+                partner_edge: seam.partner_edge.map(|at| place(seam.partner, at)),
             })
         };
         Self {

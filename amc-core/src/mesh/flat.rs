@@ -27,6 +27,12 @@ impl Garment {
         (found.is_finite() && to_metres.determinant() != 0.0).then_some(found)
     }
 
+    /// As [`Garment::uv_to_metres`], but as the UVs draw the panel: mirrored ones are not turned over.
+    pub fn uv_to_drawn_metres(&self, panel: &Panel) -> Option<Affine2> {
+        let drawn = if panel.flags.mirrored { Vec2::new(-1.0, 1.0) } else { Vec2::ONE };
+        Some(Affine2::from_scale(drawn) * self.uv_to_metres(panel)?)
+    }
+
     /// The mean of J^T J over the area; no number where no UVs have an area.
     fn metric(&self, triangles: &[[u32; 3]]) -> DMat2 {
         let (mut metric, mut total) = (DMat2::ZERO, 0.0);

@@ -59,7 +59,7 @@ pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
     } else {
         let combed = combed_directions(&looks, &garment, project.as_ref(), &fabrics.into_tables());
         let tangents = direction::combed_tangents(&garment, &combed, Progress::none())?;
-        export::tangents(&garment, &tangents, &directions, &arguments.output)?;
+        export::tangents(&garment, &tangents, &directions, &[], &arguments.output)?;
     }
     let exported = Exported { file: &arguments.output, panels, vertices, notices: &notices };
     output.result(&exported, || {

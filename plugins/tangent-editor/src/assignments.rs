@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+pub use amc_core::direction::Orientation;
 use amc_core::{Error, Result};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -9,24 +10,6 @@ use studio_plugin::document::{Edit, Project};
 
 /// By which the project knows what the editor keeps.
 pub const ID: &str = "tangent-editor";
-
-/// In which turns a piece may be laid on the cloth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Orientation {
-    /// As it is drawn, and turned by 180 degrees: the cloth looks the same both ways.
-    #[default]
-    TwoWay,
-    /// Only as it is drawn, each piece for itself: the cloth has an up and a down.
-    OneWay,
-    /// Only one way, the same for all pieces: a pile or a nap lies all one way.
-    Nap,
-}
-
-impl Orientation {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::TwoWay, Self::OneWay, Self::Nap];
-}
 
 /// What was said of a panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

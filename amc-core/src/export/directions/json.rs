@@ -6,8 +6,9 @@ use glam::{Vec3, Vec4};
 use serde::{Serialize, Serializer};
 
 use super::Piece;
-use crate::direction::Source;
+use super::about::About;
 use crate::export::GENERATOR;
+use crate::mesh::Garment;
 use crate::{Error, Result};
 
 #[derive(Serialize)]
@@ -21,11 +22,8 @@ struct Document<'a> {
 
 #[derive(Serialize)]
 struct PanelRecord<'a> {
-    id: &'a str,
-    name: &'a str,
-    source: Source,
-    angle_deg: f64,
-    takes_fabric: bool,
+    #[serde(flatten)]
+    about: About<'a>,
     mean_direction: Option<Vec3>,
     vertices: usize,
     filled: u32,
@@ -39,13 +37,9 @@ fn without_w<S: Serializer>(tangents: &&[Vec4], serializer: S) -> Result<S::Ok, 
     serializer.collect_seq(tangents.iter().map(|tangent| tangent.truncate()))
 }
 
-pub(super) fn write(pieces: &[Piece<'_>], out: &mut dyn Write) -> Result<()> {
+pub(super) fn write(garment: &Garment, pieces: &[Piece<'_>], out: &mut dyn Write) -> Result<()> {
     let panels = pieces.iter().map(|piece| PanelRecord {
-        id: &piece.mesh.panel.id,
-        name: &piece.mesh.panel.name,
-        source: piece.direction.source,
-        angle_deg: piece.angle_deg(),
-        takes_fabric: piece.mesh.panel.takes_fabric,
+        about: About::new(garment, piece),
         mean_direction: piece.mean_direction(),
         vertices: piece.mesh.positions.len(),
         filled: piece.filled,

@@ -35,7 +35,7 @@ fn exported(name: &str) -> (Garment, Tangents, Vec<u8>) {
     let made = direction::tangents(&garment, &directions).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
-    tangents(&garment, &made, &directions, &path).unwrap();
+    tangents(&garment, &made, &directions, &[], &path).unwrap();
     (garment, made, file::read(&path, 1 << 26).unwrap())
 }
 
@@ -157,7 +157,7 @@ fn what_a_format_cannot_hold_is_refused() {
     let (garment, mut directions) = garment();
     let made = direction::tangents(&garment, &directions).unwrap();
     let save = |name: &str, directions: &[Direction]| {
-        tangents(&garment, &made, directions, &folder.path().join(name))
+        tangents(&garment, &made, directions, &[], &folder.path().join(name))
     };
     assert_eq!(save("out.fbx", &directions).unwrap_err().kind(), ErrorKind::Unsupported);
     assert_eq!(save("out", &directions).unwrap_err().kind(), ErrorKind::Unsupported);
@@ -166,7 +166,8 @@ fn what_a_format_cannot_hold_is_refused() {
     let error = save("out.obj", &directions).unwrap_err();
     assert!(error.kind() == ErrorKind::Unsupported && error.to_string().contains("id2"), "{error}");
     save("out.glb", &directions).unwrap();
-    let empty = tangents(&Garment::default(), &Tangents::default(), &[], &folder.path().join("empty.glb"));
+    let empty =
+        tangents(&Garment::default(), &Tangents::default(), &[], &[], &folder.path().join("empty.glb"));
     assert_eq!(empty.unwrap_err().kind(), ErrorKind::Invalid);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::glb::{Attributes, Glb, check_size};
+use super::glb::{Attributes, Glb, check_size, plain_material};
 use super::obj::{Obj, one_word};
 use super::{GENERATOR, PanelMesh, check};
 use crate::mesh::extras::{Extras, shortest_degrees};
@@ -46,12 +46,13 @@ fn write_glb(garment: &Garment, out: &mut dyn Write) -> Result<()> {
     let meshes: Vec<PanelMesh<'_>> = PanelMesh::all(garment).map(|(_, mesh)| mesh).collect();
     check_size(meshes.iter(), PER_VERTEX)?;
     let mut glb = Glb::default();
+    let material = glb.add_material(plain_material("cloth"));
     for mesh in &meshes {
         let mut attributes = Attributes::default();
         if let Some(uvs) = &mesh.uvs {
             glb.add_uvs(&mut attributes, "TEXCOORD_0", uvs.clone());
         }
-        glb.add_panel(mesh, attributes, json!({ "amc": Extras::of(garment, mesh.panel) }));
+        glb.add_panel(mesh, attributes, material, json!({ "amc": Extras::of(garment, mesh.panel) }));
     }
     glb.write(out)
 }

@@ -67,6 +67,7 @@ where
 {
     let wanted = match N {
         2 => Dimensions::Vec2,
+        4 => Dimensions::Vec4,
         _ => Dimensions::Vec3,
     };
     if accessor.dimensions() != wanted {

@@ -178,6 +178,14 @@ impl<'a> Buffers<'a> {
     }
 }
 
+/// What a URI stands for: data in it, or a file beside the document's.
+pub(super) fn read_uri(uri: &str, resolve: Resolve<'_>) -> Result<Vec<u8>> {
+    match uri.strip_prefix("data:") {
+        Some(data) => decode_data(data),
+        None => resolve(&decode_percent(uri)?),
+    }
+}
+
 fn decode_data(data: &str) -> Result<Vec<u8>> {
     let (_, text) =
         data.split_once(";base64,").ok_or_else(|| Error::unsupported("a data URI that is not base64"))?;

@@ -37,12 +37,16 @@
 //! [`crate::export::garment`] writes them.
 
 mod accessor;
+mod anisotropic_material;
+mod anisotropy;
 mod container;
 mod extras_reader;
 mod primitive;
 mod scene;
 #[cfg(test)]
 mod tests;
+
+pub use anisotropy::{Anisotropy, anisotropy};
 
 use super::draft::Draft;
 use super::{Mesh, Resolve, check};

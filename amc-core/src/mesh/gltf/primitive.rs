@@ -136,7 +136,11 @@ fn append_normals(
 }
 
 /// UVs with v turned up: in glTF it runs down.
-fn append_uvs(draft: &mut Draft, accessor: &gltf::Accessor<'_>, buffers: &Buffers<'_>) -> Result<()> {
+pub(super) fn append_uvs(
+    draft: &mut Draft,
+    accessor: &gltf::Accessor<'_>,
+    buffers: &Buffers<'_>,
+) -> Result<()> {
     let turn_up = |uv: Vec2| Vec2::new(uv.x, 1.0 - uv.y);
     match append_checked::<2, Vec2>(accessor, buffers, &mut draft.uvs, turn_up, |uv| uv.is_finite())? {
         Some(at) => Err(Error::invalid(format!("vertex {at}: not a finite number"))),

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 use super::*;
 use crate::mesh::mutations;
 
-fn glb(json: &Value, bin: &[u8]) -> Vec<u8> {
+pub(super) fn glb(json: &Value, bin: &[u8]) -> Vec<u8> {
     let mut json = json.to_string().into_bytes();
     json.resize(json.len().next_multiple_of(4), b' ');
     let mut bin = bin.to_vec();
@@ -22,7 +22,7 @@ fn glb(json: &Value, bin: &[u8]) -> Vec<u8> {
 }
 
 /// A square of four vertices in z = 0 with UVs (v down), normals +z and six 16-bit indices.
-fn square() -> (Value, Vec<u8>) {
+pub(super) fn square() -> (Value, Vec<u8>) {
     let mut bin = Vec::new();
     let mut put = |numbers: &[f32]| numbers.iter().for_each(|x| bin.extend(x.to_le_bytes()));
     put(&[0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 1.0, 0.0]);
@@ -55,7 +55,7 @@ fn square() -> (Value, Vec<u8>) {
     (json, bin)
 }
 
-fn nothing_beside(name: &str) -> Result<Vec<u8>> {
+pub(super) fn nothing_beside(name: &str) -> Result<Vec<u8>> {
     Err(Error::invalid(format!("asked for {name}")))
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use amc_core::mesh::{FlatLocator, Garment, Panel};
 use amc_core::{Progress, Result};
-use glam::{Affine2, Mat2, Vec2};
+use glam::{Affine2, Vec2};
 
 use self::line::{Edge, edges, simplified};
 
@@ -81,11 +81,8 @@ impl Piece {
     /// At the origin. None where the panel has no flat pattern.
     fn new(garment: &Garment, panel: usize) -> Option<Self> {
         let of = garment.panels.get(panel)?;
-        let to_front = garment.uv_to_metres(of)?;
         // The pattern is shown as the UVs draw it, mirrored or not.
-        let drawn =
-            if of.flags.mirrored { Mat2::from_diagonal(Vec2::new(-1.0, 1.0)) } else { Mat2::IDENTITY };
-        let uv_to_sheet = Affine2::from_mat2(drawn) * to_front;
+        let uv_to_sheet = garment.uv_to_drawn_metres(of)?;
         let place = |vertex: &u32| uv_to_sheet.transform_point2(garment.uvs[*vertex as usize]);
         let whole: Vec<Vec<Vec2>> =
             garment.outlines(of).iter().map(|line| line.iter().map(place).collect()).collect();

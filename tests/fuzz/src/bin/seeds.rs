@@ -108,7 +108,7 @@ fn meshes() -> Outcome {
     let path = std::env::temp_dir().join("triangle.glb");
     let beside = GLTF.replace("data:;base64,AAAAAAAAAAD/fwAAAAAAAAAA/38AAAAAAAECAQ==", "buffer%201.bin");
     put("gltf_beside", "quantised.gltf", &[beside.as_bytes(), NEXT_FILE, &GLTF_BUFFER].concat())?;
-    export::tangents(&garment, &tangents(&garment, &directions)?, &directions, &path)?;
+    export::tangents(&garment, &tangents(&garment, &directions)?, &directions, &[], &path)?;
     put("gltf", "triangle.glb", &std::fs::read(&path)?)?;
     export::garment(&garment, &path)?;
     put("gltf", "garment.glb", &std::fs::read(&path)?)?;
