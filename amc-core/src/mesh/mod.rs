@@ -42,7 +42,7 @@ pub(crate) use measure::uv_area;
 pub use panel::{Garment, Panel, PanelFlags};
 pub use pattern_piece::{PatternPiece, Seam};
 pub use pick::{Hit, Picker};
-pub use read::{FILE_LIMIT, Resolve, read, suffixes};
+pub use read::{FILE_LIMIT, Resolve, read, read_anisotropy, suffixes};
 pub use unit::Unit;
 
 use glam::{Vec2, Vec3};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Mesh, Unit, gltf, obj};
+use super::{Garment, Mesh, Unit, gltf, obj};
 use crate::{Error, Result, file};
 
 /// Largest mesh file, and largest buffer beside one, in bytes.
@@ -54,6 +54,15 @@ pub fn read(path: &Path, unit: Unit) -> Result<Mesh> {
         }
     }
     Ok(mesh)
+}
+
+/// Reads a glTF file, in metres, with what KHR_materials_anisotropy says of its panels: see [`gltf::anisotropy`].
+///
+/// # Errors
+/// The file cannot be read, is larger than [`FILE_LIMIT`], or as [`gltf::anisotropy`]; the error names the file.
+pub fn read_anisotropy(path: &Path) -> Result<(Garment, Vec<gltf::Anisotropy>)> {
+    let bytes = file::read(path, FILE_LIMIT)?;
+    gltf::anisotropy(&bytes, &|name: &str| read_beside(path, name)).map_err(|error| error.in_file(path))
 }
 
 /// Reads a file that lies in the folder of `path` or below it.

@@ -87,8 +87,7 @@ pub(crate) fn panel_looks(
             _ => None,
         };
         for ((look, angle), panel) in looks.iter_mut().zip(&mut angles).zip(&garment.panels) {
-            // 'all' means all cloth; a part that takes no fabric gets one only by its own id.
-            if !names(option, &panel.id) || (option.id.is_none() && !panel.takes_fabric) {
+            if !option.is_for(panel) {
                 continue;
             }
             look.fabric = fabric.or(look.fabric);

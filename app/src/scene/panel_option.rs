@@ -1,7 +1,10 @@
-//! What is said of one panel, or of all, in one line: `ID|all[,amc=FILE][,angle=DEG][,source=...]`.
+//! What is said of one panel, or of all, in one line: `ID|all[,amc=FILE][,angle=DEG][,source=...][,class=...]`.
 
 use std::path::PathBuf;
 use std::str::FromStr;
+
+use amc_core::direction::Orientation;
+use amc_core::mesh::Panel;
 
 /// Where a panel's direction comes from, as it is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,6 +32,16 @@ pub(crate) const SOURCES: [(&str, SourceName); 9] = [
     ("radial", SourceName::Radial),
 ];
 
+impl PanelOption {
+    /// Whether it is for this panel. 'all' means all cloth; a part that takes no fabric is meant only by its own id.
+    pub(crate) fn is_for(&self, panel: &Panel) -> bool {
+        match &self.id {
+            Some(id) => *id == panel.id,
+            None => panel.takes_fabric,
+        }
+    }
+}
+
 /// One `--panel`: what is said of one panel or of all; what is not said stays as it was.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PanelOption {
@@ -38,6 +51,8 @@ pub(crate) struct PanelOption {
     pub(crate) amc: Option<PathBuf>,
     pub(crate) angle_degrees: Option<f32>,
     pub(crate) source: Option<SourceName>,
+    /// In which turns it may be laid.
+    pub(crate) class: Option<Orientation>,
 }
 
 impl FromStr for PanelOption {
@@ -49,8 +64,8 @@ impl FromStr for PanelOption {
         if id.is_empty() || id.contains('=') {
             return Err("expected a panel's id or 'all' first (ids: amc-studio inspect MESH)".to_owned());
         }
-        let mut option =
-            Self { id: (id != "all").then(|| id.to_owned()), amc: None, angle_degrees: None, source: None };
+        let id = (id != "all").then(|| id.to_owned());
+        let mut option = Self { id, amc: None, angle_degrees: None, source: None, class: None };
         for part in parts {
             match part.split_once('=') {
                 Some(("amc", file)) if !file.is_empty() => option.amc = Some(file.into()),
@@ -67,7 +82,17 @@ impl FromStr for PanelOption {
                     })?;
                     option.source = Some(*source);
                 }
-                _ => return Err(format!("'{part}' is none of amc=FILE, angle=DEGREES, source=NAME")),
+                Some(("class", name)) => {
+                    let names = Orientation::ALL.map(Orientation::name).join(", ");
+                    let known = Orientation::named(name);
+                    option.class =
+                        Some(known.ok_or_else(|| format!("the class '{name}' is none of {names}"))?);
+                }
+                _ => {
+                    return Err(format!(
+                        "'{part}' is none of amc=FILE, angle=DEGREES, source=NAME, class=NAME"
+                    ));
+                }
             }
         }
         Ok(option)
@@ -80,7 +105,8 @@ mod tests {
 
     #[test]
     fn a_panel_option_says_only_what_it_says() {
-        let option: PanelOption = "front,angle=-12.5,source=yarn".parse().unwrap();
+        let option: PanelOption = "front,angle=-12.5,source=yarn,class=one-way".parse().unwrap();
+        assert_eq!(option.class, Some(Orientation::OneWay));
         assert_eq!(option.id.as_deref(), Some("front"));
         assert_eq!(
             (option.angle_degrees, option.source, option.amc),
@@ -92,6 +118,7 @@ mod tests {
             "angle=3",
             "all,angle=north",
             "all,source=warp",
+            "all,class=both",
             "all,amc=",
             "all,colour=red",
             "all,angle=NaN",

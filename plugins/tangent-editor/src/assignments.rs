@@ -62,13 +62,21 @@ impl Assignments {
         what: String,
         change: impl Fn(&mut Assignment),
     ) -> Edit {
-        for id in panels {
-            let mut assignment = self.panels.remove(id).unwrap_or_default();
-            change(&mut assignment);
-            if assignment != Assignment::default() {
-                self.panels.insert(id.to_owned(), assignment);
-            }
+        panels.into_iter().for_each(|id| self.change(id, &change));
+        self.into_edit(what)
+    }
+
+    /// Says it anew of one panel.
+    pub(crate) fn change(&mut self, id: &str, change: impl Fn(&mut Assignment)) {
+        let mut assignment = self.panels.remove(id).unwrap_or_default();
+        change(&mut assignment);
+        if assignment != Assignment::default() {
+            self.panels.insert(id.to_owned(), assignment);
         }
+    }
+
+    /// The edit that makes a project say this; `what` is its name in the history.
+    pub(crate) fn into_edit(mut self, what: String) -> Edit {
         self.version = VERSION;
         let state = if self.panels.is_empty() {
             Value::Null

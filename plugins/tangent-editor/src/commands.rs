@@ -9,6 +9,7 @@ use studio_plugin::document::Edit;
 use studio_plugin::{Command, Context};
 
 use crate::comb;
+use crate::exchange;
 use crate::grain::{self, align, partners};
 use crate::pattern::PickedEdge;
 use crate::sheet::Sheet;
@@ -50,6 +51,8 @@ pub(crate) const COMMANDS: &[Command] = &[
         Key::Delete,
     ),
     command("save-sheet", texts::SAVE, texts::SAVE_TIP),
+    command(exchange::IMPORT, texts::IMPORT, texts::IMPORT_TIP),
+    command(exchange::EXPORT, texts::EXPORT, texts::EXPORT_TIP),
 ];
 
 /// The tool that draws strokes.

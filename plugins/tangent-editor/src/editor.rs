@@ -12,6 +12,7 @@ use crate::assignments::{Assignments, ID};
 use crate::comb::pane::CombPane;
 use crate::comb::{self, Stylus};
 use crate::commands::{self, Given};
+use crate::exchange::{self, Exchange};
 use crate::grain;
 use crate::grain_pane::GrainPane;
 use crate::pattern::PatternPane;
@@ -32,6 +33,7 @@ pub struct TangentEditor {
     /// The place on the garment under the pointer: in the flat pattern, and in the viewport.
     under_pointer: (Option<SurfacePlace>, Option<SurfacePlace>),
     saving: Vec<(String, Job<()>)>,
+    exchange: Exchange,
 }
 
 impl Plugin for TangentEditor {
@@ -74,12 +76,16 @@ impl Plugin for TangentEditor {
                     comb::delete(&sheet.garment, chosen, studio);
                 }
             }
+            _ if [exchange::IMPORT, exchange::EXPORT].contains(&command) => exchange::ask(command, studio),
             Some(sheet) => commands::run(command, sheet, &mut self.given, studio),
             None => {}
         }
     }
 
-    fn chosen(&mut self, _what: &str, file: &Path, studio: &mut Context<'_>) {
+    fn chosen(&mut self, what: &str, file: &Path, studio: &mut Context<'_>) {
+        if what == exchange::IMPORT {
+            return self.exchange.read(file, studio);
+        }
         let Some(garment) = studio.stage.garment.clone() else { return };
         let project = studio.document.project();
         let said = match said(project, &garment) {
@@ -88,6 +94,9 @@ impl Plugin for TangentEditor {
         };
         let (title, path) = (project.garment.name(), file.to_owned());
         let name = file.display().to_string();
+        if what == exchange::EXPORT {
+            return self.saving.push((name, exchange::export(file, said, garment, studio)));
+        }
         let write = move |progress: &amc_core::Progress<'_>| {
             tech_sheet::save(&title, garment, &said, &path, progress)
         };
@@ -105,6 +114,7 @@ impl Plugin for TangentEditor {
                 false
             }
         });
+        self.exchange.update(studio);
         let Some(garment) = &studio.stage.garment else {
             (self.sheet, self.laying_out) = (None, None);
             return;
@@ -155,6 +165,7 @@ impl Plugin for TangentEditor {
     }
 
     fn overlay(&mut self, painter: &Painter, view: &ViewportView<'_>, studio: &mut Context<'_>) {
+        self.exchange.show(painter.ctx(), studio);
         let Some(sheet) = &self.sheet else { return };
         overlay::arrows(painter, view, sheet, studio);
         overlay::strokes(painter, view, sheet, self.stylus.chosen, studio);

@@ -14,9 +14,12 @@ mod commands;
 #[cfg(feature = "window")]
 mod editor;
 #[cfg(feature = "window")]
+mod exchange;
+#[cfg(feature = "window")]
 mod grain;
 #[cfg(feature = "window")]
 mod grain_pane;
+pub mod import;
 #[cfg(feature = "window")]
 mod overlay;
 #[cfg(feature = "window")]

@@ -120,6 +120,49 @@ pub(crate) fn centimetres(length: f32) -> String {
     format!("{length} cm")
 }
 
+pub(crate) const IMPORT: &str = "Import directions ...";
+pub(crate) const IMPORT_TIP: &str =
+    "From a JSON, a DXF (the grain lines of its pieces) or a GLB with anisotropy";
+pub(crate) const IMPORT_TITLE: &str = "Import directions";
+pub(crate) const DIRECTIONS: &str = "Directions";
+pub(crate) const APPLY: &str = "Apply";
+pub(crate) const CANCEL: &str = "Cancel";
+pub(crate) const EXPORT: &str = "Export directions ...";
+pub(crate) const EXPORT_TIP: &str =
+    "As GLB (tangents, turned UVs, anisotropy, yarns), OBJ (turned UVs) or JSON (all panels)";
+pub(crate) const EXPORT_TITLE: &str = "Export directions";
+pub(crate) const GLB: &str = "glTF binaries";
+pub(crate) const OBJ: &str = "Wavefront OBJ";
+pub(crate) const JSON: &str = "Lists of panels";
+
+pub(crate) const ANOTHER_GARMENT: &str =
+    "Another garment has come meanwhile: the directions were not imported.";
+
+/// A file of directions is being read.
+pub(crate) fn reading(file: impl std::fmt::Display) -> String {
+    format!("Reading {file}")
+}
+
+/// What a file of directions is for, before it is applied.
+pub(crate) fn reaches(file: &str, count: usize) -> String {
+    format!("{file} says something of {}.", panels(count))
+}
+
+/// For the history.
+pub(crate) fn imported(count: usize) -> String {
+    format!("Import directions of {}", panels(count))
+}
+
+/// Locked panels of an import.
+pub(crate) fn kept_locked(names: &str) -> String {
+    format!("locked, so the direction stays: {names}")
+}
+
+/// Fabrics of an import.
+pub(crate) fn no_such_fabrics(names: &str) -> String {
+    format!("the project has no fabrics of these names: {names}")
+}
+
 pub(crate) const WARNINGS: &str = "Look at";
 
 /// A panel has no UVs.

@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 use amc_core::direction::Direction;
 use amc_core::mesh::Garment;
-use amc_core::{Error, Progress, Result, file};
+use amc_core::{Error, Progress, Result, export, file};
 
 use crate::assignments::{Assignment, Orientation};
 use crate::sheet::{Piece, Sheet};
@@ -30,6 +30,18 @@ pub struct Said {
     pub fabric: Option<String>,
     /// In which turns it may be laid, and the like.
     pub assignment: Assignment,
+}
+
+impl Said {
+    /// The same for [`export::tangents`].
+    pub fn exported(&self) -> export::Said {
+        export::Said {
+            fabric: self.fabric.clone(),
+            orientation: self.assignment.orientation,
+            is_locked: self.assignment.is_locked,
+            is_linked: self.assignment.is_linked,
+        }
+    }
 }
 
 /// A sheet that is about to be written.
