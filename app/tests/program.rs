@@ -177,6 +177,60 @@ fn directions_are_exported_and_panels_listed() {
     assert_eq!(again["triangles"], mesh["triangles"]);
 }
 
+#[test]
+fn directions_are_imported_and_what_is_not_matched_is_said() {
+    let folder = scratch();
+    let here = folder.path();
+    let panels = |file: &str| -> Vec<Value> {
+        let text = std::fs::read_to_string(here.join(file)).unwrap();
+        let document: Value = serde_json::from_str(&text).unwrap();
+        document["panels"].as_array().unwrap().clone()
+    };
+    let turned = [
+        "--panel",
+        "all,angle=20,class=nap",
+        "--panel",
+        "back,angle=-33.3,amc=fabric:changeant,class=one-way",
+    ];
+    for suffix in ["dxf", "glb", "json"] {
+        let file = format!("said.{suffix}");
+        done(here, &[&["tangents", "garment:shirt", "-o", &file][..], &turned].concat());
+        let import = ["--import", &file, "--panel", "yoke,angle=7"];
+        done(here, &[&["tangents", "garment:shirt", "-o", "again.json"][..], &import].concat());
+        for panel in panels("again.json") {
+            let (expected, class) = match panel["id"].as_str().unwrap() {
+                "back" => (-33.3, "one-way"),
+                // Later ones win.
+                "yoke" => (7.0, "nap"),
+                _ => (20.0, "nap"),
+            };
+            let angle = panel["angle_deg"].as_f64().unwrap();
+            assert!((angle - expected).abs() < 0.1, "{suffix}: {panel}: {angle}");
+            assert_eq!(panel["orientation"], class, "{suffix}: {panel}");
+            if suffix != "dxf" && expected == -33.3 {
+                assert!(panel["fabric"].as_str().unwrap().eq_ignore_ascii_case("changeant"), "{panel}");
+            }
+        }
+    }
+    let hand = r#"{"panels": [{"name": "Front", "angle_deg": 12}, {"id": "hood", "angle_deg": 3}]}"#;
+    amc_core::file::save_bytes(&here.join("hand.json"), hand.as_bytes()).unwrap();
+    let said = json(here, &["tangents", "garment:t-shirt", "--import", "hand.json", "-o", "t.json"]);
+    let notices = said["notices"].as_array().unwrap();
+    let tells = |part: &str| notices.iter().any(|notice| notice.as_str().unwrap().contains(part));
+    assert!(tells("left out: hood") && tells("says nothing of: back"), "{notices:?}");
+    for (file, content, part) in [
+        ("wrong.json", &b"{\"panels\": 3}"[..], "wrong.json: line 1"),
+        ("wrong.dxf", b"0\nSECTION\n", "wrong.dxf: no pieces"),
+        ("wrong.glb", b"glTF", "wrong.glb: "),
+        ("wrong.txt", b"", "wrong.txt: directions are read from"),
+    ] {
+        amc_core::file::save_bytes(&here.join(file), content).unwrap();
+        let output = run(here, &["tangents", "garment:t-shirt", "--import", file, "-o", "t.json"]);
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(1) && error.contains(part), "{error}");
+    }
+}
+
 /// A square whose pattern runs its warp along +v.
 fn save_upright(file: &Path) {
     use amc_core::mesh::{Garment, Mesh, Part, PatternPiece};

@@ -2,14 +2,18 @@
 //! bytes do not justify. The fuzz crate drives them with new bytes; the test `crashes` with those that once failed.
 
 use std::path::Path;
+use std::sync::LazyLock;
 
 use amc_core::amc::Amc;
 use amc_core::capture::Session;
+use amc_core::direction::Direction;
 use amc_core::mesh::{Garment, Mesh};
 use amc_core::reflectance::{self as reflectances, Lighting};
 use amc_core::render::Camera;
-use amc_core::{exchange, image::decode, mesh};
+use amc_core::{Progress, exchange, image::decode, mesh};
 use amc_studio::project::{encode, parse};
+use studio_plugin::document::{Document, Project};
+use tangent_editor::import;
 use wardrobe::cut::cut;
 use wardrobe::pattern::Pattern;
 
@@ -17,7 +21,7 @@ use wardrobe::pattern::Pattern;
 pub type Target = (&'static str, fn(&[u8]));
 
 /// All targets. A parser is one line here and one file in the fuzz crate.
-pub const TARGETS: [Target; 12] = [
+pub const TARGETS: [Target; 14] = [
     ("ktx2", ktx2),
     ("gltf", gltf),
     ("gltf_beside", gltf_beside),
@@ -30,6 +34,8 @@ pub const TARGETS: [Target; 12] = [
     ("slices", slices),
     ("pattern", pattern),
     ("project", project),
+    ("dxf", dxf),
+    ("directions", directions),
 ];
 
 /// AMC files.
@@ -54,6 +60,10 @@ pub fn gltf(bytes: &[u8]) {
     let no_files = |_: &str| Err(amc_core::Error::invalid("no files here"));
     if let Ok(mesh) = mesh::gltf::parse(bytes, &no_files) {
         cut_into_panels(mesh);
+    }
+    if let Ok((garment, said)) = mesh::gltf::anisotropy(bytes, &no_files) {
+        assert_eq!(garment.panels.len(), said.len());
+        assert!(said.iter().filter_map(|said| said.warp).all(|warp| warp.is_finite()));
     }
 }
 
@@ -97,7 +107,7 @@ pub fn obj(bytes: &[u8]) {
 /// Whatever a reader lets through must stand the whole way to directions.
 fn cut_into_panels(mesh: Mesh) {
     if let Ok(garment) = Garment::new(mesh) {
-        let along_grain = amc_core::direction::Direction::along_grain;
+        let along_grain = Direction::along_grain;
         let directions: Vec<_> = garment.panels.iter().map(along_grain).collect();
         for pattern in garment.panels.iter().map(|panel| &panel.pattern) {
             let partners = pattern.seams.iter().map(|seam| seam.partner).chain(pattern.mirror);
@@ -184,5 +194,35 @@ pub fn project(bytes: &[u8]) {
             again.project == read.project && again.unknown == read.unknown,
             "something was lost on the way"
         );
+    }
+}
+
+/// DXF with grain lines, matched to the panels of a garment.
+pub fn dxf(bytes: &[u8]) {
+    if let Ok(entries) = import::parse_dxf(bytes) {
+        take_in(&entries);
+    }
+}
+
+/// The JSON of directions, matched likewise.
+pub fn directions(bytes: &[u8]) {
+    if let Ok(entries) = import::parse_json(bytes) {
+        take_in(&entries);
+    }
+}
+
+/// Whatever is let through can be done to a project.
+fn take_in(entries: &[import::Entry]) {
+    static GARMENT: LazyLock<Garment> = LazyLock::new(|| {
+        let sheet = amc_core::shape::mesh("sheet").expect("a shape by its name");
+        Garment::new(sheet).expect("a shape has panels")
+    });
+    let now = [Direction::along_grain(&GARMENT.panels[0])];
+    if let Ok(import) = import::place(&GARMENT, &now, entries, &Progress::none()) {
+        let mut document = Document::new(Project::default());
+        let planned = import::edits(&import, &GARMENT, document.project()).expect("a project without locks");
+        for edit in planned.edits {
+            document.submit(edit, None).expect("what was let through is sound");
+        }
     }
 }

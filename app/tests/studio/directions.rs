@@ -246,3 +246,50 @@ fn a_shirt_that_lies_off_its_grain_is_set_straight() {
     }
     assert_eq!(harness.state().document().project().panels, after.panels);
 }
+
+/// Runs a command that asks for a file, and types it.
+fn command_with_file(harness: &mut Harness<'_, App>, name: &str, file: &Path, button: &str) {
+    command(harness, name);
+    let field = |node: &egui_kittest::kittest::AccessKitNode<'_>| {
+        node.role() == egui::Role::TextInput && node.is_focused()
+    };
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.run_steps(2);
+    harness.get_by(field).type_text(file.to_str().unwrap());
+    harness.run_steps(2);
+    harness.get_by_label(button).click();
+    settle(harness);
+}
+
+#[test]
+fn directions_are_exported_and_imported_and_what_is_not_matched_is_said_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new().without_dialogs(), folder.path());
+    select(&mut harness, "back");
+    command(&mut harness, "bias 45");
+    let file = folder.path().join("shirt.json");
+    command_with_file(&mut harness, "Export directions ...", &file, "Save");
+    assert!(reads(&harness, &["Saved", "shirt.json"]));
+    press(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert_eq!(degrees(&harness, "back"), None);
+    // All of it is matched, so nothing is asked.
+    command_with_file(&mut harness, "Import directions ...", &file, "Use");
+    near(&harness, "back", 45.0);
+    assert!(reads(&harness, &["Import directions of 12 panels"]));
+    press(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert_eq!(degrees(&harness, "back"), None, "it was one step");
+
+    let hand = r#"{"panels": [{"name": "Back", "angle_deg": 12}, {"name": "Hood", "angle_deg": 3}]}"#;
+    let file = folder.path().join("hand.json");
+    amc_core::file::save_bytes(&file, hand.as_bytes()).unwrap();
+    command_with_file(&mut harness, "Import directions ...", &file, "Use");
+    assert!(
+        reads(&harness, &["left out: Hood"]) && reads(&harness, &["hand.json says something of 1 panel"])
+    );
+    assert_eq!(degrees(&harness, "back"), None, "not before it was read");
+    click(&mut harness, "Cancel");
+    assert_eq!(degrees(&harness, "back"), None);
+    command_with_file(&mut harness, "Import directions ...", &file, "Use");
+    click(&mut harness, "Apply");
+    near(&harness, "back", 12.0);
+}

@@ -85,7 +85,8 @@ fn said(
         let Some(id) = id(found) else { continue };
         assignments.change(&id, |it: &mut Assignment| {
             it.orientation = found.orientation.unwrap_or(it.orientation);
-            it.is_locked = found.is_locked.unwrap_or(it.is_locked);
+            // What the person locked here is not unlocked by a file.
+            it.is_locked |= found.is_locked.unwrap_or_default();
             it.is_linked = found.is_linked.unwrap_or(it.is_linked);
         });
         panels.push(id);

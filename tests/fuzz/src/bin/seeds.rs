@@ -41,6 +41,17 @@ const PROJECTS: [&str; 2] = [
     "angle_deg": -1.5}, "hem": [1]}}, "view": {}, "notes": "two\nlines", "later": {"a": null}}"#,
 ];
 
+/// The sheet by its id and by its name, with all that can be said.
+const DIRECTIONS: &str = r#"{"version": 1, "panels": [{"id": "sheet", "source": "yarn", "angle_deg": -4.5e1, "orientation": "nap",
+    "fabric": "Satin", "locked": true, "linked": false, "tangents": [[1, 0, 0]]}, {"name": "Sheet",
+    "source": {"field": {"around": {"origin": [0, 1, 0], "direction": [0, 0, 1]}}}}, {"name": "hood", "angle_deg": null}]}"#;
+
+/// A square of two metres by a name of its own, turned, in millimetres; and a block of other entities.
+const DXF: &str = "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n8\n1\n2\nA\n0\nPOLYLINE\n8\n1\n66\n1\n0\nVERTEX\n8\n1\n10\n0\n20\n0\n\
+    0\nVERTEX\n10\n1732\n20\n1000\n0\nVERTEX\n10\n732\n20\n2732\n0\nVERTEX\n10\n-1000\n20\n1732\n0\nSEQEND\n0\nLINE\n\
+    8\n7\n10\n0\n20\n500\n11\n0\n21\n1500\n0\nTEXT\n8\n1\n1\nQUANTITY: 2\n0\nENDBLK\n0\nBLOCK\n2\nSHEET\n0\nLWPOLYLINE\n\
+    8\n14\n90\n3\n10\n0\n20\n0\n10\n1\n20\n0\n10\n0\n20\n1\n0\nTEXT\n1\nANNOTATION: one-way\n0\nENDBLK\n0\nENDSEC\n0\nEOF\n";
+
 const LIGHTS: &str = r#"{"version": 1, "ambient": [0.1, 0.1, 0.1], "lights": [{"towards": [0, 1, 2], "irradiance": [1, 2.5, 3]}]}"#;
 
 /// A node with a turned child; quantised positions of one triangle, as a strip with a sparse accessor.
@@ -87,6 +98,8 @@ fn put(target: &str, name: &str, bytes: &[u8]) -> Outcome {
 fn texts(satin: &str) -> Outcome {
     put("obj", "all.obj", OBJ.as_bytes())?;
     put("gltf", "quantised.gltf", GLTF.as_bytes())?;
+    put("directions", "directions.json", DIRECTIONS.as_bytes())?;
+    put("dxf", "pieces.dxf", DXF.as_bytes())?;
     put("session", "session.json", SESSION.as_bytes())?;
     put("pattern", "t-shirt.json", include_bytes!("../../../../assets/wardrobe/patterns/t-shirt.json"))?;
     put("pattern", "scarf.json", include_bytes!("../../../../assets/wardrobe/patterns/scarf.json"))?;
