@@ -99,7 +99,7 @@ fn take_in(file: &Path, garment: &Garment, project: Project) -> Result<(Project,
     let mut import = import::read(garment, &now, file, &Progress::none())?;
     // A fabric's name is kept as it is: no project is made of it.
     let unworn = Import {
-        found: import.found.iter().cloned().map(|found| Found { fabric: None, ..found }).collect(),
+        found: import.found.iter().map(|found| Found { fabric: None, ..found.clone() }).collect(),
         notices: Vec::new(),
     };
     let planned = import::edits(&unworn, garment, &project)?;

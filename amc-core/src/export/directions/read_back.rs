@@ -89,7 +89,7 @@ struct Seen {
 fn vec3s(accessor: &gltf::Accessor<'_>, blob: &[u8]) -> Vec<Vec3> {
     let view = accessor.view().unwrap();
     let bytes = &blob[view.offset()..view.offset() + view.length()];
-    bytes.chunks_exact(12).map(|item| bytemuck::pod_read_unaligned(item)).collect()
+    bytes.chunks_exact(12).map(bytemuck::pod_read_unaligned).collect()
 }
 
 /// What is seen of the primitive at the first corners of its triangles.

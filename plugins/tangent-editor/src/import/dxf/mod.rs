@@ -153,7 +153,8 @@ impl Block {
 
     /// Not a symbol, or a drawing's own space.
     fn is_piece(&self) -> bool {
-        !self.name.starts_with('*') && !(self.outlines.is_empty() && self.grains.is_empty())
+        let has_lines = !self.outlines.is_empty() || !self.grains.is_empty();
+        has_lines && !self.name.starts_with('*')
     }
 
     fn into_entry(mut self) -> Entry {
