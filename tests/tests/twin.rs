@@ -266,9 +266,13 @@ fn prints_near_and_afar(backend: Backend) {
                     twins.compare(&what, &printed, &view, &shading);
                 }
             }
+            let Cloth::Printed(_, laid) = printed.draws[0].cloth.clone() else { continue };
+            printed.draws[0].cloth = Cloth::Covered(laid);
+            let view = perspective(&printed);
+            twins.compare(&format!("{name}, {width} m, alone"), &printed, &view, &Shading::default());
         }
     }
-    twins.agree(2 * 4 * 4 * 2);
+    twins.agree(2 * 4 * (4 * 2 + 1));
 }
 
 /// A fan of few triangles around a point: each spans much of the azimuth; and half of them face away.

@@ -71,6 +71,20 @@ impl Drawing {
         Ok(drawing)
     }
 
+    /// The same panels in other cloths; all else is shared.
+    ///
+    /// # Errors
+    /// A cloth that refers to a fabric that is not there.
+    pub fn in_cloths(&self, cloth_of_panel: impl Fn(usize, &Cloth) -> Cloth) -> Result<Self> {
+        let draw = |(index, draw): (usize, &Draw)| Draw {
+            triangles: draw.triangles.clone(),
+            cloth: cloth_of_panel(index, &draw.cloth),
+        };
+        let drawing = Self { draws: self.draws.iter().enumerate().map(draw).collect(), ..self.clone() };
+        drawing.check_draws()?;
+        Ok(drawing)
+    }
+
     /// The same with an occlusion for every vertex, as [`Drawing::new`] takes it.
     ///
     /// # Errors
@@ -186,6 +200,9 @@ mod tests {
         assert!(message(drawing.with_occlusion(&[Vec2::ONE])).contains("1 occlusion"));
         let other = drawing.dressed(vec![Vec3::Y; 3], Vec::new(), |_| Cloth::Plain).unwrap();
         assert!(Arc::ptr_eq(&other.vertices, &drawing.vertices) && *other.tangents == [Vec3::Y; 3]);
+        let bare = drawing.in_cloths(|_, _| Cloth::Plain).unwrap();
+        assert!(Arc::ptr_eq(&bare.tangents, &drawing.tangents) && bare.draws == drawing.draws);
+        assert!(message(drawing.in_cloths(|panel, _| Cloth::Fabric(panel))).contains("panel 0"));
         let dressed =
             |count: usize, cloth: Cloth| drawing.dressed(vec![Vec3::Y; count], Vec::new(), |_| cloth.clone());
         assert!(message(dressed(2, Cloth::Plain)).contains("2 tangents"));

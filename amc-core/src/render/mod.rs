@@ -50,6 +50,8 @@ pub enum Cloth {
     Fabric(usize),
     /// A fabric with a picture over it, multiplied in.
     Printed(usize, LaidPrint),
+    /// No fabric but a picture, lit from the viewer: what shows something of the cloth in place of how it looks.
+    Covered(LaidPrint),
     /// No fabric: plain grey, lit from the viewer.
     Plain,
 }
@@ -59,14 +61,14 @@ impl Cloth {
     pub fn fabric(&self) -> Option<usize> {
         match self {
             Self::Fabric(fabric) | Self::Printed(fabric, _) => Some(*fabric),
-            Self::Plain => None,
+            Self::Covered(_) | Self::Plain => None,
         }
     }
 
-    /// Its print.
+    /// Its picture.
     pub fn print(&self) -> Option<&LaidPrint> {
         match self {
-            Self::Printed(_, print) => Some(print),
+            Self::Printed(_, print) | Self::Covered(print) => Some(print),
             Self::Fabric(_) | Self::Plain => None,
         }
     }

@@ -140,6 +140,11 @@ pub fn plain(n_z: f32) -> Vec3 {
     Vec3::splat(PLAIN_GREY * (0.3 + 0.7 * n_z.max(0.0)))
 }
 
+/// What multiplies a picture that is shown in place of a fabric: light from the viewer. `n_z` as in [`plain`].
+pub fn cover_light(n_z: f32) -> f32 {
+    0.45 + 0.55 * n_z.max(0.0)
+}
+
 /// The colour of the UV view, sRGB-encoded values: the fractional parts in red and green, a checker of ten squares to
 /// the unit in blue.
 pub fn uv_colour(uv: Vec2) -> Vec3 {

@@ -27,6 +27,7 @@ static EMBEDDED: &[(&str, &str)] = embedded![
     "mode_amc_printed",
     "mode_ball",
     "mode_ball_printed",
+    "mode_covered",
     "mode_normals",
     "mode_plain",
     "mode_tangents",

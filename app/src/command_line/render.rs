@@ -1,6 +1,7 @@
 //! `amc-studio render`: pictures of a garment in its fabrics.
 
 mod choices;
+mod show;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -14,6 +15,7 @@ use studio_plugin::ShadingChoice;
 use studio_plugin::document::{Angles, ViewSettings};
 
 use self::choices::{CyclicChoice, PerspectiveChoice, Switch, ViewChoice};
+use self::show::ShowChoice;
 use super::output::Output;
 use super::progress::with_progress;
 use super::renderer::RendererChoice;
@@ -42,6 +44,10 @@ pub(super) struct Arguments {
     /// amc, isotropic, matcap=PNG, normals, tangents, uv [default: the project's, else amc].
     #[arg(long)]
     shading: Option<String>,
+    /// In place of fabrics: arrows, streamlines, lic, weave[=TIMES LARGER], checker, stretch-warp, stretch-weft, shear or gradient-yarn,
+    /// as the window shows them over the cloth.
+    #[arg(long, conflicts_with = "shading")]
+    show: Option<ShowChoice>,
     /// The size in pixels of the picture, of each view or of each frame.
     #[arg(long, default_value = "1024x1024")]
     size: PictureSize,
@@ -168,6 +174,10 @@ fn painter(
     };
     let drawing =
         drawing((garment, project.as_ref()), (&looks, &prints), fabrics, shading.occlusion, progress)?;
+    let drawing = match arguments.show {
+        Some(show) => show.over(garment, &looks, &drawing, progress)?,
+        None => drawing,
+    };
     let hidden = project.as_ref().map(|project| hidden_panels(project, garment)).unwrap_or_default();
     Painter::new(device.clone(), drawing, &hidden)
 }

@@ -156,6 +156,7 @@ impl App {
         self.with_context(|registry, studio| registry.each(studio, |plugin, studio| plugin.update(studio)));
         self.desk.update(&mut self.notices);
         self.stager.update(self.desk.document.project(), &mut self.jobs, &mut self.notices);
+        self.stager.cover(self.registry.cover(&mut self.notices));
         if let Some(garment) = &self.stager.stage.garment {
             self.selection.retain(|id| garment.panels.iter().any(|panel| panel.id == id));
         }

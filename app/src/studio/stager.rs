@@ -11,7 +11,7 @@ use amc_core::mesh::{Garment, Picker, Unit};
 use amc_core::render::{Bounds, Cloth, Drawing, Print};
 use eframe::egui::ColorImage;
 use studio_plugin::document::{Asset, FabricId, Project};
-use studio_plugin::{DrawnDirections, Job, Jobs, Notices, Registry, Stage};
+use studio_plugin::{Cover, Directions, Job, Jobs, Notices, Registry, Stage};
 
 use super::texts::notices as words;
 use super::thumbnail;
@@ -31,6 +31,8 @@ pub(super) struct Stager {
     pub(super) drawn: Drawn,
     /// What is drawn right of the divider of a split view, where that is not the same.
     pub(super) compared: Drawn,
+    /// What is drawn, with what lies over it.
+    covered: Option<Covered>,
     garment: Loading<(Asset, Unit), Loaded>,
     /// What darkens the folds takes longest, and comes when the garment is seen already.
     shaded: Option<Job<Arc<Drawing>>>,
@@ -40,12 +42,20 @@ pub(super) struct Stager {
     loaded: Option<Loaded>,
 }
 
+/// A drawing under a cover.
+#[derive(Debug)]
+struct Covered {
+    of: Arc<Drawing>,
+    cover: Arc<Cover>,
+    drawing: Arc<Drawing>,
+}
+
 /// A drawing, made anew when its recipe changes.
 #[derive(Debug, Default)]
 pub(super) struct Drawn {
     /// The drawing, and to pick panels in it.
     pub(super) latest: Option<(Arc<Drawing>, Arc<Picker>)>,
-    directions: Option<Arc<DrawnDirections>>,
+    directions: Option<Directions>,
     job: Option<Job<Made>>,
     /// What it was last made of, or is being made of.
     of: Option<Recipe>,
@@ -114,6 +124,35 @@ impl Stager {
         self.update_fabrics(project, jobs, notices);
         self.update_prints(project, jobs, notices);
         self.update_drawings(project, jobs, notices);
+        self.stage.directions.clone_from(&self.drawn.directions);
+    }
+
+    /// Lays a cover over what is drawn from now on; none: nothing lies over it.
+    pub(super) fn cover(&mut self, cover: Option<Arc<Cover>>) {
+        let cover = cover.filter(|cover| {
+            self.drawn.directions.as_ref().is_some_and(|it| Arc::ptr_eq(&it.garment, &cover.garment))
+        });
+        self.covered = match (cover, &self.drawn.latest, self.covered.take()) {
+            (Some(cover), Some((of, _)), Some(known))
+                if Arc::ptr_eq(&known.of, of) && Arc::ptr_eq(&known.cover, &cover) =>
+            {
+                Some(known)
+            }
+            (Some(cover), Some((of, _)), _) => Covered::new(of, cover),
+            _ => None,
+        };
+    }
+
+    /// What is to be seen: left of the divider of a split view, and right of it where that is not the same.
+    pub(super) fn shown(&self) -> Option<Shown> {
+        let (plain, picker) = self.drawn.latest.clone()?;
+        let compared = self.compared.latest.as_ref().map(|(drawing, _)| Arc::clone(drawing));
+        Some(match &self.covered {
+            Some(covered) => {
+                Shown { drawing: Arc::clone(&covered.drawing), picker, compared: compared.or(Some(plain)) }
+            }
+            None => Shown { drawing: plain, picker, compared },
+        })
     }
 
     /// Whether something is still to come.
@@ -235,7 +274,25 @@ impl Stager {
         });
         self.drawn.update(recipe, jobs, notices);
         self.compared.update(other, jobs, notices);
-        self.stage.directions.clone_from(&self.drawn.directions);
+    }
+}
+
+/// What a viewport is given.
+#[derive(Debug, Clone)]
+pub(super) struct Shown {
+    pub(super) drawing: Arc<Drawing>,
+    pub(super) picker: Arc<Picker>,
+    pub(super) compared: Option<Arc<Drawing>>,
+}
+
+impl Covered {
+    /// None where the two do not belong together.
+    fn new(of: &Arc<Drawing>, cover: Arc<Cover>) -> Option<Self> {
+        let picture = |panel: usize, _: &Cloth| {
+            cover.panels.get(panel).cloned().flatten().map_or(Cloth::Plain, Cloth::Covered)
+        };
+        let drawing = Arc::new(of.in_cloths(picture).ok()?);
+        Some(Self { of: Arc::clone(of), cover, drawing })
     }
 }
 
@@ -267,11 +324,11 @@ impl Drawn {
         match (made.drawing, &self.of) {
             (Ok(drawing), Some(recipe)) => {
                 self.latest = Some((Arc::new(drawing), Arc::clone(&recipe.loaded.picker)));
-                self.directions = Some(Arc::new(DrawnDirections {
+                self.directions = Some(Directions {
                     garment: Arc::clone(made.kept.garment()),
                     vectors: Arc::clone(&made.kept.tangents().vectors),
                     fields: made.kept.fields(),
-                }));
+                });
                 self.is_preview = made.is_preview;
             }
             (Ok(_), None) => {}

@@ -13,6 +13,8 @@ mod ask;
 mod command;
 #[cfg(feature = "window")]
 mod context;
+#[cfg(feature = "window")]
+mod cover;
 pub mod document;
 mod jobs;
 mod notices;
@@ -33,6 +35,8 @@ pub use ask::{Ask, FileKind};
 pub use command::Command;
 #[cfg(feature = "window")]
 pub use context::{Context, Request};
+#[cfg(feature = "window")]
+pub use cover::{Cover, Directions};
 pub use jobs::{Job, JobView, Jobs};
 pub use notices::{Notice, NoticeKind, Notices};
 #[cfg(feature = "window")]
@@ -42,6 +46,6 @@ pub use registry::{Registered, Registry};
 pub use selection::Selection;
 pub use shading_choice::ShadingChoice;
 #[cfg(feature = "window")]
-pub use stage::{DrawnDirections, Stage};
+pub use stage::Stage;
 #[cfg(feature = "window")]
 pub use viewport::{Hand, ViewportView};

@@ -1,10 +1,11 @@
 //! The trait of plugins, and what they declare.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use serde_json::Value;
 
-use crate::{Command, Context, Hand, ShadingChoice, ViewportView};
+use crate::{Command, Context, Cover, Hand, ShadingChoice, ViewportView};
 
 /// Where a pane is put until the person puts it elsewhere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,6 +78,11 @@ pub trait Plugin {
 
     /// Paints over the garment; called in every frame that is drawn.
     fn overlay(&mut self, _painter: &egui::Painter, _view: &ViewportView<'_>, _studio: &mut Context<'_>) {}
+
+    /// What lies over the cloth; asked for in every frame. Of several plugins' the first one's is shown.
+    fn cover(&self) -> Option<Arc<Cover>> {
+        None
+    }
 
     /// Its shading modes.
     fn shading_modes(&self) -> Vec<ShadingChoice> {

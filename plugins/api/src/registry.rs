@@ -1,11 +1,12 @@
 //! The plugins of a studio.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 
 use amc_core::Result;
 use serde_json::Value;
 
-use crate::{Context, Notices, Plugin};
+use crate::{Context, Cover, Notices, Plugin};
 
 /// A registered plugin.
 pub struct Registered {
@@ -63,6 +64,15 @@ impl Registered {
         outcome
     }
 
+    /// What it lays over the cloth; none where it is off or fails.
+    fn cover(&mut self, notices: &mut Notices) -> Option<Arc<Cover>> {
+        let outcome = self.guarded(|plugin| plugin.cover())?;
+        if outcome.is_none() {
+            self.tell_off(notices);
+        }
+        outcome?
+    }
+
     /// What the call gives; nothing in it where it panicked, and nothing at all where the plugin is off.
     fn guarded<T>(&mut self, call: impl FnOnce(&mut dyn Plugin) -> T) -> Option<Option<T>> {
         if self.off {
@@ -108,6 +118,11 @@ impl Registry {
     /// The plugin of this id.
     pub fn get_mut(&mut self, id: &str) -> Option<&mut Registered> {
         self.plugins.iter_mut().find(|known| known.plugin.id() == id)
+    }
+
+    /// What lies over the cloth: the first plugin's that has something.
+    pub fn cover(&mut self, notices: &mut Notices) -> Option<Arc<Cover>> {
+        self.plugins.iter_mut().find_map(|plugin| plugin.cover(notices))
     }
 
     /// Calls all that are on.

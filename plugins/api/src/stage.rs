@@ -4,20 +4,20 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 use amc_core::amc::Amc;
-use amc_core::direction::comb::CombedField;
 use amc_core::mesh::Garment;
 use amc_core::render::{Mode, Print, Shading};
 use egui::ColorImage;
-use glam::Vec3;
 
-use crate::ShadingChoice;
 use crate::document::{Asset, FabricId, ViewSettings};
+use crate::{Directions, ShadingChoice};
 
 /// The garment and the fabrics of the document, as far as they are loaded.
 #[derive(Debug, Clone)]
 pub struct Stage {
     /// The garment; none while it is being loaded, or when it could not be.
     pub garment: Option<Arc<Garment>>,
+    /// The direction of the garment that is drawn, which may be one before the document's latest; none while none is.
+    pub directions: Option<Directions>,
     /// The fabrics that are there.
     pub fabrics: BTreeMap<FabricId, Arc<Amc>>,
     /// A ball in each of them, a small picture.
@@ -26,32 +26,19 @@ pub struct Stage {
     pub prints: HashMap<Asset, Arc<Print>>,
     /// The garment's panels as flat pieces: small pictures in white, one for each panel.
     pub pieces: Vec<Arc<ColorImage>>,
-    /// The garment's directions as they are drawn; none until they are.
-    pub directions: Option<Arc<DrawnDirections>>,
     /// The shading modes there are: the studio's, then the plugins'.
     pub modes: Vec<ShadingChoice>,
-}
-
-/// The directions of a garment that is drawn.
-#[derive(Debug, Clone)]
-pub struct DrawnDirections {
-    /// The garment.
-    pub garment: Arc<Garment>,
-    /// One for each of its vertices, object space: unit, perpendicular to the normal.
-    pub vectors: Arc<Vec<Vec3>>,
-    /// What the strokes of each panel made; none where there are none.
-    pub fields: Vec<Option<Arc<CombedField>>>,
 }
 
 impl Default for Stage {
     fn default() -> Self {
         Self {
             garment: None,
+            directions: None,
             fabrics: BTreeMap::new(),
             swatches: BTreeMap::new(),
             prints: HashMap::new(),
             pieces: Vec::new(),
-            directions: None,
             modes: ShadingChoice::BUILT_IN.to_vec(),
         }
     }

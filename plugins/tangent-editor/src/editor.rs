@@ -5,8 +5,11 @@ use std::sync::Arc;
 
 use amc_core::mesh::{Garment, SurfacePlace};
 use egui::Painter;
+use serde_json::Value;
 use studio_plugin::document::Project;
-use studio_plugin::{Ask, Command, Context, FileKind, Hand, Job, Pane, Place, Plugin, ViewportView};
+use studio_plugin::{
+    Ask, Command, Context, Cover, FileKind, Hand, Job, Pane, Place, Plugin, ViewportView,
+};
 
 use crate::assignments::{Assignments, ID};
 use crate::comb::pane::CombPane;
@@ -16,6 +19,7 @@ use crate::exchange::{self, Exchange};
 use crate::grain;
 use crate::grain_pane::GrainPane;
 use crate::pattern::PatternPane;
+use crate::seeing_view::SeeingView;
 use crate::sheet::Sheet;
 use crate::tech_sheet::{self, Said};
 use crate::{overlay, texts};
@@ -29,6 +33,7 @@ pub struct TangentEditor {
     grain: GrainPane,
     comb: CombPane,
     stylus: Stylus,
+    seeing: SeeingView,
     given: Given,
     /// The place on the garment under the pointer: in the flat pattern, and in the viewport.
     under_pointer: (Option<SurfacePlace>, Option<SurfacePlace>),
@@ -46,7 +51,7 @@ impl Plugin for TangentEditor {
     }
 
     fn commands(&self) -> Vec<Command> {
-        commands::COMMANDS.to_vec()
+        commands::COMMANDS.iter().copied().chain(SeeingView::commands()).collect()
     }
 
     fn tools(&self) -> Vec<Command> {
@@ -69,6 +74,7 @@ impl Plugin for TangentEditor {
 
     fn run(&mut self, command: &str, studio: &mut Context<'_>) {
         match &self.sheet {
+            _ if self.seeing.run(command) => {}
             _ if command == "fit" => self.pattern.fit(),
             _ if command == "save-sheet" => ask(studio),
             Some(sheet) if command == "delete-stroke" => {
@@ -103,7 +109,20 @@ impl Plugin for TangentEditor {
         self.saving.push((name.clone(), studio.jobs.start(texts::saving(&name), write)));
     }
 
+    fn cover(&self) -> Option<Arc<Cover>> {
+        self.seeing.cover()
+    }
+
+    fn settings(&self) -> Option<Value> {
+        Some(self.seeing.kept())
+    }
+
+    fn restore(&mut self, settings: Value) -> amc_core::Result<()> {
+        self.seeing.restore(settings)
+    }
+
     fn update(&mut self, studio: &mut Context<'_>) {
+        self.seeing.take(studio);
         self.saving.retain(|(name, job)| match job.poll() {
             None => true,
             Some(result) => {
@@ -156,8 +175,9 @@ impl Plugin for TangentEditor {
         } else if sheet.pieces.is_empty() {
             ui.label(texts::NO_UVS);
         } else if pane == "pattern" {
+            self.seeing.ask(studio);
             let marked = self.under_pointer.1;
-            let given = (&mut self.given.picked_edge, &mut self.stylus);
+            let given = (&mut self.given.picked_edge, &mut self.stylus, &mut self.seeing);
             self.under_pointer.0 = self.pattern.show(ui, sheet, given, marked, studio);
         } else if let Some(clicked) = self.grain.show(ui, sheet, &self.given, studio) {
             self.run(clicked, studio);
@@ -166,7 +186,11 @@ impl Plugin for TangentEditor {
 
     fn overlay(&mut self, painter: &Painter, view: &ViewportView<'_>, studio: &mut Context<'_>) {
         self.exchange.show(painter.ctx(), studio);
+        self.seeing.ask(studio);
         let Some(sheet) = &self.sheet else { return };
+        let visuals = painter.ctx().global_style().visuals.clone();
+        let about = (&sheet.garment, &*studio.selection);
+        self.seeing.legend(painter, view.rect, &visuals, about);
         overlay::arrows(painter, view, sheet, studio);
         overlay::strokes(painter, view, sheet, self.stylus.chosen, studio);
         if let Some(place) = &self.under_pointer.0 {

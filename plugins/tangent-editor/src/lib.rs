@@ -24,6 +24,9 @@ pub mod import;
 mod overlay;
 #[cfg(feature = "window")]
 mod pattern;
+pub mod seeing;
+#[cfg(feature = "window")]
+mod seeing_view;
 mod sheet;
 pub mod tech_sheet;
 mod texts;

@@ -2,6 +2,8 @@
 
 pub(crate) mod comb;
 
+use crate::seeing::{Binding, SHARES, Show, Square, Weave};
+
 pub(crate) const NAME: &str = "Grain";
 pub(crate) const PATTERN: &str = "Flat pattern";
 pub(crate) const GRAIN: &str = "Grain";
@@ -226,4 +228,130 @@ pub(crate) fn linking(count: usize, link: bool) -> String {
 /// The panel's mirror image.
 pub(crate) fn partner(name: &str) -> String {
     format!("Mirror partner: {name}")
+}
+
+// What is seen over the cloth.
+
+pub(crate) const SHOW: &str = "Show";
+pub(crate) const SHOW_TIP: &str =
+    "Over the cloth, on the pattern and on the garment; a way of looking, no part of the project";
+pub(crate) const NOTHING: &str = "Nothing";
+pub(crate) const DRAWING_CLOTH: &str = "Drawing over the cloth";
+pub(crate) const NOTHING_TO_SHOW: &str = "The garment has no flat pattern (UVs): nothing can be shown over its cloth. Choose the shading Directions instead.";
+pub(crate) const SHOW_TOGGLE: &str = "Show over the cloth, or hide";
+pub(crate) const SHOW_NOTHING: &str = "Show nothing over the cloth";
+pub(crate) const SHOW_ARROWS: &str = "Show arrows along the warp";
+pub(crate) const SHOW_STREAMLINES: &str = "Show streamlines along the warp";
+pub(crate) const SHOW_LINES: &str = "Show fine lines along the warp (LIC)";
+pub(crate) const SHOW_WEAVE: &str = "Show the weave";
+pub(crate) const SHOW_CHECKER: &str = "Show a checker of true size (UVs)";
+pub(crate) const SHOW_WARP_STRETCH: &str = "Show stretch along the warp";
+pub(crate) const SHOW_WEFT_STRETCH: &str = "Show stretch along the weft";
+pub(crate) const SHOW_SHEAR: &str = "Show shear: warp against weft";
+pub(crate) const SHOW_GRADIENT_YARN: &str = "Show gradient against yarn";
+pub(crate) const BINDING: &str = "Weave";
+pub(crate) const ENDS: &str = "Ends";
+pub(crate) const ENDS_TIP: &str = "Warp threads to the centimetre";
+pub(crate) const PICKS: &str = "Picks";
+pub(crate) const PICKS_TIP: &str = "Weft threads to the centimetre";
+pub(crate) const PER_CM: &str = "/cm";
+pub(crate) const ENLARGEMENT: &str = "Drawn";
+pub(crate) const SQUARE: &str = "Squares";
+pub(crate) const MEASURED_LENGTHS: &str =
+    "Against the mean of each panel: the file does not say how long its flat pattern is";
+
+/// What is shown.
+pub(crate) fn show(show: Show) -> &'static str {
+    match show {
+        Show::Arrows => "Arrows",
+        Show::Streamlines => "Streamlines",
+        Show::Lines => "Fine lines (LIC)",
+        Show::Weave => "Threads",
+        Show::Checker => "Checker",
+        Show::WarpStretch => "Stretch, warp",
+        Show::WeftStretch => "Stretch, weft",
+        Show::Shear => "Shear",
+        Show::GradientAgainstYarn => "Gradient against yarn",
+    }
+}
+
+/// How threads cross.
+pub(crate) fn binding(binding: Binding) -> &'static str {
+    match binding {
+        Binding::Plain => "plain",
+        Binding::Twill => "twill 2/2",
+        Binding::Satin => "satin 8",
+    }
+}
+
+/// The side of a square.
+pub(crate) fn square(square: Square) -> &'static str {
+    match square {
+        Square::Centimetre => "1 cm",
+        Square::Inch => "1 inch",
+    }
+}
+
+/// So many times larger.
+pub(crate) fn times(enlargement: f32) -> String {
+    if enlargement > 1.0 { format!("{enlargement:.0} times larger") } else { "true to size".to_owned() }
+}
+
+/// In a legend.
+pub(crate) fn squares(square: Square) -> String {
+    format!("Squares of {}, lines every ten; letters are mirrored where the UVs are", self::square(square))
+}
+
+/// In a legend.
+pub(crate) fn weave(weave: &Weave) -> String {
+    let Weave { binding, ends, picks, enlargement } = weave;
+    format!(
+        "{}, {ends:.1} ends and {picks:.1} picks to the cm, {}",
+        self::binding(*binding),
+        times(*enlargement)
+    )
+}
+
+/// In a legend.
+pub(crate) fn drawn_larger(enlargement: f32) -> String {
+    format!("Where the direction varies: in patches, up to {enlargement:.0} times larger")
+}
+
+/// In a legend.
+pub(crate) fn without_pattern(panels: usize) -> String {
+    format!("Nothing on {}: no flat pattern (UVs)", self::panels(panels))
+}
+
+/// What a heat map's values are.
+pub(crate) fn unit(show: Show) -> &'static str {
+    match show {
+        Show::Shear => "warp against weft, degrees",
+        Show::GradientAgainstYarn => "degrees",
+        _ => "per cent of its length",
+    }
+}
+
+/// A value of a heat map.
+pub(crate) fn value(show: Show, value: f32) -> String {
+    // No minus before zero.
+    let value = if value.abs() < 0.05 { 0.0 } else { value };
+    match show {
+        Show::Shear | Show::GradientAgainstYarn => format!("{value:.1}\u{b0}"),
+        _ => format!("{value:+.1} %"),
+    }
+}
+
+/// Over percentiles; of so many selected panels, 0: of all.
+pub(crate) fn percentiles_of(selected: usize) -> String {
+    if selected == 0 {
+        "Of the area of all panels".to_owned()
+    } else {
+        format!("Of the area of {}", panels(selected))
+    }
+}
+
+/// Percentiles of a heat map.
+pub(crate) fn percentiles(show: Show, values: [f32; 5]) -> String {
+    let told = SHARES.iter().zip(values).map(|(share, it)| format!("{share} %: {}", value(show, it)));
+    told.collect::<Vec<_>>().join("   ")
 }

@@ -10,8 +10,8 @@ use super::vertex::{Axis, Varyings};
 use crate::amc::{Amc, LinearTable};
 use crate::image::Picture;
 use crate::render::shade::{
-    direction_colour, facing_normal, fragment_kappa, linear_colour, look_up_normal, picture_coordinates,
-    plain, seen_light, table_coordinates, uv_colour,
+    cover_light, direction_colour, facing_normal, fragment_kappa, linear_colour, look_up_normal,
+    picture_coordinates, plain, seen_light, table_coordinates, uv_colour,
 };
 use crate::render::{Cloth, Cyclic, Draw, Drawing, LaidPrint, Mode, Shading, View};
 use crate::view_space::perpendicular;
@@ -45,6 +45,8 @@ pub(super) enum Paint {
     Picture(Arc<Texture>),
     /// No fabric.
     Plain,
+    /// No fabric, and a picture over it.
+    Covered,
     /// The normal as a colour.
     Normals,
     /// The tangent as a colour.
@@ -66,6 +68,7 @@ impl Paint {
                 own.name
             ))),
             (Mode::Amc | Mode::Isotropic | Mode::MatCap(_), Cloth::Plain) => Ok(Self::Plain),
+            (Mode::Amc | Mode::Isotropic | Mode::MatCap(_), Cloth::Covered(_)) => Ok(Self::Covered),
             (_, Cloth::Fabric(index) | Cloth::Printed(index, _)) => {
                 let paint = per_fabric.get(*index).cloned().flatten();
                 paint.ok_or_else(|| Error::invalid(format!("the drawing has no fabric {index}")))
@@ -92,9 +95,9 @@ impl Paint {
         drawing.fabrics.par_iter().enumerate().map(of_fabric).collect()
     }
 
-    /// Whether it shows a fabric.
+    /// Whether there may be a picture over it.
     fn is_cloth(&self) -> bool {
-        matches!(self, Self::Table(_) | Self::Picture(_))
+        matches!(self, Self::Table(_) | Self::Picture(_) | Self::Covered)
     }
 
     /// The axis whose cyclic coordinate the vertices must send for it.
@@ -126,6 +129,7 @@ impl FragmentStage<'_> {
             Paint::Table(table) => self.amc_colour(table, at, n, kappa),
             Paint::Picture(picture) => self.matcap_colour(picture, at, n),
             Paint::Plain => plain(n.z),
+            Paint::Covered => Vec3::splat(cover_light(n.z)),
             Paint::Normals => return linear_colour(direction_colour(n)),
             Paint::Tangents => return linear_colour(direction_colour(perpendicular(at.t, n))),
             Paint::Uv => return linear_colour(uv_colour(at.uv)),

@@ -30,6 +30,7 @@ const AMC: ShadingMode = built_in("mode_amc", LooksUp::Table);
 const BALL: ShadingMode = built_in("mode_ball", LooksUp::Ball);
 const PRINTED_AMC: ShadingMode = printed("mode_amc_printed", LooksUp::Table);
 const PRINTED_BALL: ShadingMode = printed("mode_ball_printed", LooksUp::Ball);
+const COVERED: ShadingMode = printed("mode_covered", LooksUp::Nothing);
 const PLAIN: ShadingMode = built_in("mode_plain", LooksUp::Nothing);
 const NORMALS: ShadingMode = built_in("mode_normals", LooksUp::Nothing);
 const TANGENTS: ShadingMode = built_in("mode_tangents", LooksUp::Nothing);
@@ -47,7 +48,8 @@ const fn printed(shader: &'static str, looks_up: LooksUp) -> ShadingMode {
 pub(super) const MARK: ShadingMode = built_in("mark", LooksUp::Nothing);
 
 /// All shadings of cloth.
-pub static MODES: &[ShadingMode] = &[AMC, BALL, PRINTED_AMC, PRINTED_BALL, PLAIN, NORMALS, TANGENTS, UV];
+pub static MODES: &[ShadingMode] =
+    &[AMC, BALL, PRINTED_AMC, PRINTED_BALL, COVERED, PLAIN, NORMALS, TANGENTS, UV];
 
 impl ShadingMode {
     /// How `cloth` is drawn in `mode`: parts without a fabric stay grey where fabrics are shown.
@@ -56,6 +58,7 @@ impl ShadingMode {
             (Mode::Normals, _) => NORMALS,
             (Mode::Tangents, _) => TANGENTS,
             (Mode::Uv, _) => UV,
+            (Mode::Own(own), Cloth::Covered(_)) if own.reads_fabric => COVERED,
             (Mode::Own(own), Cloth::Plain) if own.reads_fabric => PLAIN,
             (Mode::Own(own), _) => Self {
                 shader: own.name,
@@ -64,6 +67,7 @@ impl ShadingMode {
                 is_printed: false,
             },
             (Mode::Amc | Mode::Isotropic | Mode::MatCap(_), Cloth::Plain) => PLAIN,
+            (Mode::Amc | Mode::Isotropic | Mode::MatCap(_), Cloth::Covered(_)) => COVERED,
             (Mode::Amc, Cloth::Fabric(_)) => AMC,
             (Mode::Amc, Cloth::Printed(..)) => PRINTED_AMC,
             (Mode::Isotropic | Mode::MatCap(_), Cloth::Printed(..)) => PRINTED_BALL,

@@ -7,6 +7,7 @@ use studio_plugin::{Hand, ViewportView};
 
 use super::App;
 use crate::studio::dock::{self, Layout, Pane};
+use crate::studio::stager::Shown;
 use crate::studio::theme::{STEP, Tokens};
 use crate::studio::{texts, welcome};
 use crate::viewport::ViewportInput;
@@ -48,12 +49,12 @@ impl App {
             ui.centered_and_justified(|ui| ui.label(texts::NO_GPU));
             return;
         };
-        let Some((drawing, picker)) = self.stager.drawn.latest.clone() else {
+        let Some(Shown { drawing, picker, compared }) = self.stager.shown() else {
             ui.centered_and_justified(|ui| ui.weak(texts::LOADING));
             return;
         };
         viewport.set_scene(drawing, picker.clone());
-        viewport.set_compared(self.stager.compared.latest.as_ref().map(|(drawing, _)| drawing.clone()));
+        viewport.set_compared(compared);
         let Some(garment) = &self.stager.stage.garment else { return };
         let project = self.desk.document.project();
         let number = |id: &String| garment.panels.iter().position(|panel| panel.id == *id);

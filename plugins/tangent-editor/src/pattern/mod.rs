@@ -14,6 +14,7 @@ use studio_plugin::document::Gesture;
 use self::camera::Camera;
 use crate::comb::{self, Finder, Stylus};
 use crate::grain;
+use crate::seeing_view::SeeingView;
 use crate::sheet::{Piece, Sheet, line};
 use crate::texts::{self, comb as comb_texts};
 
@@ -73,7 +74,7 @@ impl PatternPane {
         &mut self,
         ui: &mut egui::Ui,
         sheet: &Sheet,
-        (picked_edge, stylus): (&mut Option<PickedEdge>, &mut Stylus),
+        (picked_edge, stylus, seeing): (&mut Option<PickedEdge>, &mut Stylus, &mut SeeingView),
         marked: Option<SurfacePlace>,
         studio: &mut Context<'_>,
     ) -> Option<SurfacePlace> {
@@ -86,6 +87,7 @@ impl PatternPane {
             if draw.on_hover_text(comb_texts::DRAW_TIP).clicked() {
                 studio.take(comb::TOOL);
             }
+            seeing.choice(ui);
             if !is_combing {
                 ui.weak(texts::SHORT_HELP).on_hover_text(texts::HELP);
             }
@@ -111,13 +113,15 @@ impl PatternPane {
             self.turn_arrows(ui, sheet, (camera, pane), studio);
         }
         let marked_at = marked.and_then(|place| on_sheet(sheet, &place));
-        let seen = paint::Seen { under, picked_edge: picked_edge.as_ref(), marked: marked_at };
+        let over = seeing.shapes(ui.ctx(), sheet, (camera, pane));
+        let seen = paint::Seen { under, picked_edge: picked_edge.as_ref(), marked: marked_at, over };
         paint::paint(&ui.painter_at(pane), sheet, (camera, pane), &seen, ui.visuals(), studio);
         let place = |place: &SurfacePlace| Some(camera.to_window(on_sheet(sheet, place)?, pane));
         for piece in &sheet.pieces {
             let panel = (&*sheet.garment, piece.panel);
             comb::marks::paint(&ui.painter_at(pane), &finder, panel, stylus.chosen, place, studio);
         }
+        explain(ui, pane, sheet, seeing, studio);
         let piece = &sheet.pieces[under.piece?];
         piece.locator.locate(&sheet.garment, piece.uv_to_sheet.inverse().transform_point2(at?))
     }
@@ -224,6 +228,16 @@ impl Finder for OnSheet<'_> {
             }
             _ => Vec::new(),
         }
+    }
+}
+
+/// The legend of what is seen over the pieces, also for who cannot see it.
+fn explain(ui: &egui::Ui, pane: Rect, sheet: &Sheet, seeing: &mut SeeingView, studio: &Context<'_>) {
+    let about = (&sheet.garment, &*studio.selection);
+    let legend = seeing.legend(&ui.painter_at(pane), pane, ui.visuals(), about);
+    if let (Some(rect), Some(text)) = (legend, seeing.description()) {
+        let response = ui.interact(rect, ui.scope_id().with("legend"), Sense::hover());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &text));
     }
 }
 

@@ -24,6 +24,8 @@ pub(super) struct Seen<'a> {
     pub(super) picked_edge: Option<&'a PickedEdge>,
     /// The place under the pointer in the viewport, on the sheet.
     pub(super) marked: Option<Vec2>,
+    /// What is seen over each piece.
+    pub(super) over: Vec<Vec<Shape>>,
 }
 
 pub(super) fn paint(
@@ -38,15 +40,16 @@ pub(super) fn paint(
     let place = |at: Vec2| camera.to_window(at, pane);
     let hovered = studio.selection.hovered.as_deref();
     let visible = |piece: &&Piece| camera.rect(piece.low, piece.high, pane).intersects(pane);
-    for piece in sheet.pieces.iter().filter(visible) {
+    for (number, piece) in sheet.pieces.iter().enumerate().filter(|(_, piece)| visible(piece)) {
         let panel = sheet.panel(piece);
         let is_selected = studio.selection.panels.contains(&panel.id);
         let is_hovered = hovered == Some(panel.id.as_str());
-        paint_piece(painter, piece, &place, (is_selected, is_hovered), visuals);
+        let over = seen.over.get(number).cloned().unwrap_or_default();
+        paint_piece(painter, (piece, over), &place, (is_selected, is_hovered), visuals);
     }
     paint_seams(painter, sheet, &place, seen, studio, visuals);
     for piece in sheet.pieces.iter().filter(visible) {
-        paint_grain(painter, sheet, piece, (camera, pane), visuals, studio);
+        paint_grain(painter, sheet, piece, (camera, pane), (visuals, !seen.over.is_empty()), studio);
     }
     let accent = visuals.selection.bg_fill;
     if let Some(picked) = seen.picked_edge
@@ -66,7 +69,7 @@ pub(super) fn paint(
 
 fn paint_piece(
     painter: &Painter,
-    piece: &Piece,
+    (piece, over): (&Piece, Vec<Shape>),
     place: &impl Fn(Vec2) -> Pos2,
     (is_selected, is_hovered): (bool, bool),
     visuals: &Visuals,
@@ -85,6 +88,7 @@ fn paint_piece(
         ..Mesh::default()
     };
     painter.add(Shape::mesh(mesh));
+    painter.extend(over);
     let line =
         if is_selected { Stroke::new(2.0, accent) } else { Stroke::new(1.0, visuals.weak_text_color()) };
     // Edge by edge: a line that turns back on itself, as at a slit, would have a spike there.
@@ -145,7 +149,7 @@ fn paint_grain(
     sheet: &Sheet,
     piece: &Piece,
     (camera, pane): (Camera, Rect),
-    visuals: &Visuals,
+    (visuals, is_covered): (&Visuals, bool),
     studio: &Context<'_>,
 ) {
     let along = direction_on_sheet(sheet, piece, studio);
@@ -153,6 +157,12 @@ fn paint_grain(
     let half = piece.half_arrow(along);
     let ends = [-half, half].map(|way| camera.to_window(piece.middle + along * way, pane));
     let way = egui::vec2(along.x, -along.y);
+    if is_covered {
+        // Over a picture of any tone.
+        let (back, behind) = (Stroke::new(4.5, visuals.extreme_bg_color), ends[1] + way * 2.0);
+        painter.line_segment([ends[0], ends[1] - way * (0.6 * HEAD)], back);
+        painter.add(Shape::convex_polygon(head(behind, way, HEAD + 4.0).to_vec(), back.color, Stroke::NONE));
+    }
     painter.line_segment([ends[0], ends[1] - way * (0.6 * HEAD)], Stroke::new(1.5, color));
     painter.add(Shape::convex_polygon(head(ends[1], way, HEAD).to_vec(), color, Stroke::NONE));
     let room = camera.rect(piece.low, piece.high, pane);
@@ -171,6 +181,9 @@ fn paint_grain(
     };
     let rect = Rect::from_min_size(at + aside, galley.size());
     if room.contains_rect(rect) {
+        if is_covered {
+            painter.rect_filled(rect.expand(2.0), 2.0, visuals.extreme_bg_color.gamma_multiply(0.8));
+        }
         painter.galley(rect.min, galley, color);
     }
 }
