@@ -57,6 +57,24 @@ impl Print {
         }
     }
 
+    /// The same, of whose copies those narrower than `whole` are nearer to their mean colour, and those of `gone` and narrower are it: for
+    /// fine regular patterns, which would beat with the screen's pixels.
+    #[must_use]
+    pub fn fading(mut self, whole: u32, gone: u32) -> Self {
+        let mean = self.levels.last().and_then(|level| level.texels.first()).copied().unwrap_or([255; 4]);
+        let mean = mean.map(|byte| LINEAR_FROM_SRGB8[usize::from(byte)]);
+        let steps = (whole.max(1) as f32 / gone.max(1) as f32).log2().max(1.0);
+        for level in self.levels.iter_mut().filter(|level| level.width < whole) {
+            let share = ((whole as f32 / level.width as f32).log2() / steps).clamp(0.0, 1.0);
+            for texel in level.texels.iter_mut().flat_map(|texel| texel.iter_mut().zip(mean).take(3)) {
+                let (byte, mean) = texel;
+                let light = LINEAR_FROM_SRGB8[usize::from(*byte)];
+                *byte = srgb8_from_linear(light + (mean - light) * share);
+            }
+        }
+        self
+    }
+
     /// The picture and its smaller copies, the largest first.
     pub fn levels(&self) -> &[Level] {
         &self.levels
@@ -172,6 +190,23 @@ mod tests {
         assert_eq!(made.levels()[0].texels[0], [255; 4]);
         assert_eq!(made.levels()[0].texels[1][..2], [255, 0]);
         assert!(Print::new(&Picture::new(0, 0, Vec::new()).unwrap()).is_err());
+    }
+
+    #[test]
+    fn a_fading_print_is_its_mean_where_it_is_small() {
+        let stripes = |fade: bool| {
+            let made = print(16, 16, |x, _| [(x / 8) as f32, 0.0, 1.0, 1.0]);
+            if fade { made.fading(8, 2) } else { made }
+        };
+        let (plain, fading) = (stripes(false), stripes(true));
+        assert_eq!(fading.levels()[..2], plain.levels()[..2]);
+        let contrast = |print: &Print, level: usize| {
+            let light = |k: usize| LINEAR_FROM_SRGB8[usize::from(print.levels()[level].texels[k][0])];
+            light(print.levels()[level].width as usize - 1) - light(0)
+        };
+        assert!((contrast(&plain, 2) - 1.0).abs() < 1e-3 && (contrast(&fading, 2) - 0.5).abs() < 5e-3);
+        assert_eq!(contrast(&fading, 3), 0.0);
+        assert_eq!(fading.levels()[4], plain.levels()[4]);
     }
 
     #[test]

@@ -15,7 +15,7 @@ fn near(harness: &Harness<'_, App>, panel: &str, expected: f32) {
 }
 
 /// Runs a command by typing its name into the palette.
-fn command(harness: &mut Harness<'_, App>, name: &str) {
+pub(crate) fn command(harness: &mut Harness<'_, App>, name: &str) {
     press(harness, Modifiers::COMMAND, Key::P);
     harness.get_by_label("Type what you want to do").type_text(name);
     settle(harness);

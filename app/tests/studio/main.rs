@@ -8,6 +8,7 @@ mod journeys;
 mod panes;
 mod pictures;
 mod plugins;
+mod seeing;
 mod settings;
 
 use std::path::Path;

@@ -56,9 +56,6 @@ fn smeared(field: &Field, noise: &Noise, weights: &[f32], at: Vec2) -> f32 {
             let Some(along) = field.along(at + heading * 0.5, heading) else { break };
             at += along;
             heading = along;
-            if field.along(at, heading).is_none() {
-                break;
-            }
             sum += noise.at(at) * weight;
             total += weight;
         }

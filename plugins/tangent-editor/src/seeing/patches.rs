@@ -16,7 +16,7 @@ use super::{Field, Weave};
 /// Threads across a patch.
 const THREADS: f32 = 10.0;
 /// Texels across a thread, at least.
-const TEXELS: f32 = 5.0;
+const TEXELS: f32 = 6.0;
 
 /// The weave as it can be drawn in texels of this side (metres): larger where it must be.
 pub(super) fn drawable(weave: Weave, texel: f32) -> Weave {

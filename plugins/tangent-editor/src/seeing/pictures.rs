@@ -24,8 +24,8 @@ use super::{ColorScale, Field, FlatPanel, Grid, Settings, Show, Spread, Strain, 
 const TEXELS: (f32, f32) = (4.0e6, 1.0e6);
 /// The least side of a texel, metres.
 const FINEST: f32 = 2.5e-4;
-/// How broad a grain of smeared noise is on the cloth, metres, and how far it is smeared to either side.
-const GRAIN: (f32, f32) = (1.3e-3, 1.6e-2);
+/// How broad a grain of smeared noise is on the cloth, metres, how many texels it has, and how many grains it is smeared to either side.
+const GRAIN: (f32, f32, f32) = (1.3e-3, 1.8, 12.0);
 /// Between streamlines, and their width, metres.
 const LINES: (f32, f32) = (8e-3, 1.4e-3);
 /// The cell of an arrow, and the width of its lines, metres.
@@ -110,13 +110,18 @@ pub fn seen(asked: &Asked, before: Option<&Seen>, progress: &Progress<'_>) -> Re
     let flat = before.map_or_else(|| Arc::new(laid_flat(garment)), |before| Arc::clone(&before.flat));
     let heat = if show.is_heat_map() { Heat::new(asked, &flat, progress)? } else { Heat::default() };
     let area: f32 = flat.iter().flatten().map(|panel| panel.size().element_product()).sum();
-    let texels = if show.is_heat_map() { TEXELS.1 } else { TEXELS.0 };
+    let (texels, finest) = match show {
+        Show::Lines => (TEXELS.0, GRAIN.0 / GRAIN.1),
+        _ if show.is_heat_map() => (TEXELS.1, FINEST),
+        _ => (TEXELS.0, FINEST),
+    };
+    let texel = (area / texels).sqrt().max(finest);
     let tile = match show {
         Show::Checker => Some(Arc::new(checker::tile()?)),
         Show::Weave => Some(Arc::new(settings.weave.within_bounds().tile()?)),
         _ => None,
     };
-    let maker = Maker { asked, heat: &heat, tile, texel: (area / texels).sqrt().max(FINEST), progress };
+    let maker = Maker { asked, heat: &heat, tile, texel, progress };
     let done = AtomicUsize::new(0);
     let of = |(number, panel): (usize, &Option<FlatPanel>)| {
         let Some(panel) = panel else { return Ok(None) };
@@ -304,11 +309,9 @@ impl Maker<'_> {
 
     fn lines(&self, panel: &FlatPanel) -> Result<LaidPrint> {
         let field = self.field(panel);
-        let texels = |length: f32| length / field.grid.texel;
-        let smear = Smear {
-            grain: texels(GRAIN.0).clamp(1.2, 6.0),
-            reach: texels(GRAIN.1).clamp(6.0, 64.0) as usize,
-        };
+        // As broad as it should be, or as it can be.
+        let grain = (GRAIN.0 / field.grid.texel).clamp(1.2, 2.0 * GRAIN.1);
+        let smear = Smear { grain, reach: (grain * GRAIN.2) as usize };
         let values = convolved(&field, smear, self.progress)?;
         once(toned(&values, &field), field.grid, panel)
     }

@@ -104,7 +104,9 @@ impl Weave {
     pub fn tile(&self) -> Result<Print> {
         let side = self.binding.repeat() * TEXELS;
         let pixels = (0..side * side).map(|k| self.texel(k % side, k / side)).collect();
-        Print::new(&Picture::new(side as u32, side as u32, pixels)?)
+        // Threads narrower than four pixels of the screen begin to fade; those of one pixel are gone.
+        let repeat = self.binding.repeat() as u32;
+        Ok(Print::new(&Picture::new(side as u32, side as u32, pixels)?)?.fading(4 * repeat, repeat))
     }
 
     /// From metres on the flat cloth to the tile, the warp along `along`: the thread at the origin is everywhere the first.
