@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use amc_studio::studio::Studio;
-use eframe::egui::{Key, Modifiers, Rect};
+use eframe::egui::{self, Key, Modifiers, Rect};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
@@ -57,12 +57,15 @@ fn a_checker_has_squares_of_true_size_on_the_pattern_and_on_the_garment() {
     // In the squares of the second row, above their letters.
     let row = place.center().y - 2.9 / 8.0 * place.height();
     assert_eq!(changes(&seen, row, (place.left() + 3.0, place.right() - 3.0)), 7);
-    // Rows without letters have the fewest changes; one more where the sheet begins or ends in a light square.
+    // Most rows are without letters; they begin or end in a light square.
     let garment = harness.get_by_label("Garment").rect();
-    let rows = (garment.top() as usize + 1..garment.bottom() as usize - 120)
-        .map(|row| changes(&seen, row as f32, (garment.left() + 2.0, garment.right() - 2.0)))
-        .filter(|&count| count > 3);
-    assert_eq!(rows.min(), Some(8));
+    let mut counts = [0; 64];
+    for row in garment.top() as usize + 1..garment.bottom() as usize - 1 {
+        let count = changes(&seen, row as f32, (garment.left() + 2.0, garment.right() - 2.0));
+        counts[count.min(63)] += 1;
+    }
+    let most = (1..64).max_by_key(|&count| counts[count]);
+    assert_eq!(most, Some(8), "{counts:?}");
 
     command(&mut harness, "shear");
     assert!(reads(&harness, &["Shear", "50 %: 90.0"]));
@@ -114,9 +117,9 @@ fn a_weave_has_the_threads_that_are_typed() {
     click(&mut harness, "Close");
     command(&mut harness, "show the weave");
     assert!(reads(&harness, &["plain, 40.0 ends and 32.0 picks", "true to size"]));
-    harness.get_by_role_and_label(eframe::egui::Role::SpinButton, "Ends").focus();
+    harness.get_by_role_and_label(egui::Role::SpinButton, "Ends").focus();
     settle(&mut harness);
-    harness.event(eframe::egui::Event::Text("24".to_owned()));
+    harness.event(egui::Event::Text("24".to_owned()));
     settle(&mut harness);
     press(&mut harness, Modifiers::NONE, Key::Enter);
     assert!(reads(&harness, &["plain, 24.0 ends and 32.0 picks"]));
@@ -131,8 +134,6 @@ fn without_a_flat_pattern_nothing_is_shown_and_that_is_said() {
     amc_core::file::save_bytes(&file, b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     let mut harness = window(Studio::new().open([file]), folder.path());
     click(&mut harness, "Close");
-    let before = picture(&mut harness);
     press(&mut harness, Modifiers::NONE, Key::W);
     assert!(reads(&harness, &["nothing can be shown over its cloth"]));
-    assert!(!before.is_empty());
 }

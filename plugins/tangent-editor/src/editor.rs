@@ -69,7 +69,8 @@ impl Plugin for TangentEditor {
         if command == "delete-stroke" {
             return self.sheet.is_some() && self.stylus.chosen.is_some();
         }
-        self.sheet.as_ref().is_some_and(|sheet| commands::can_run(command, sheet, &self.given, studio))
+        SeeingView::commands().any(|known| known.id == command)
+            || self.sheet.as_ref().is_some_and(|sheet| commands::can_run(command, sheet, &self.given, studio))
     }
 
     fn run(&mut self, command: &str, studio: &mut Context<'_>) {
