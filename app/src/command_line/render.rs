@@ -175,7 +175,7 @@ fn painter(
     let drawing =
         drawing((garment, project.as_ref()), (&looks, &prints), fabrics, shading.occlusion, progress)?;
     let drawing = match arguments.show {
-        Some(show) => show.over(garment, &looks, &drawing, progress)?,
+        Some(show) => show.over((garment, project.as_ref()), &looks, &drawing, progress)?,
         None => drawing,
     };
     let hidden = project.as_ref().map(|project| hidden_panels(project, garment)).unwrap_or_default();

@@ -1,6 +1,6 @@
 //! The tangent-field editor, as a designer uses it.
 
-use amc_core::direction::comb::{Path, Stroke};
+use amc_core::direction::comb::{Path as StrokePath, Stroke};
 use amc_core::mesh::{self, Garment, Unit};
 use amc_studio::studio::Studio;
 use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, vec2};
@@ -81,7 +81,7 @@ fn an_arrow_is_dragged_and_a_sum_is_typed() {
     show_tab(&mut harness, "Flat pattern");
     let tip = harness.get_by_label("Grain of back").rect().center();
     // The arrow points up; a quarter of the piece's width to the right of its tip is 45 degrees or so.
-    drag(&mut harness, tip, tip + egui::vec2(60.0, 0.0));
+    drag(&mut harness, tip, tip + vec2(60.0, 0.0));
     let turned = degrees(&harness, "back").unwrap();
     assert!((10.0..80.0).contains(&turned), "{turned}");
     assert_eq!(harness.state().document().steps().count(), 1, "a drag is one step");
@@ -125,7 +125,7 @@ fn strokes_comb_a_panel_and_are_moved_switched_off_deleted_undone_and_kept() {
     drag(&mut harness, from, to);
     let drawn = strokes(&harness, "back");
     assert_eq!((drawn.len(), harness.state().document().steps().count()), (1, 1), "a stroke is one step");
-    let Path::Pattern(points) = &drawn[0].path else { panic!("a stroke of the pattern") };
+    let StrokePath::Pattern(points) = &drawn[0].path else { panic!("a stroke of the pattern") };
     assert!(points.len() >= 2);
     let combed = picture(&mut harness);
     assert_ne!(combed, plain);
@@ -133,7 +133,7 @@ fn strokes_comb_a_panel_and_are_moved_switched_off_deleted_undone_and_kept() {
     // Its end is dragged: it turns about its start.
     drag(&mut harness, to, to + vec2(0.0, -30.0));
     let moved = strokes(&harness, "back");
-    let Path::Pattern(turned) = &moved[0].path else { panic!("a stroke of the pattern") };
+    let StrokePath::Pattern(turned) = &moved[0].path else { panic!("a stroke of the pattern") };
     assert!(turned[0].distance(points[0]) < 1e-4);
     assert!(turned[turned.len() - 1].distance(points[points.len() - 1]) > 1e-3);
 
@@ -178,7 +178,7 @@ fn a_stroke_is_drawn_on_the_garment_and_lies_in_its_flat_pattern() {
     let combed: Vec<_> = project.panels.iter().filter(|(_, choice)| choice.comb.is_some()).collect();
     let [(panel, _)] = combed[..] else { panic!("one panel is combed, not {}", combed.len()) };
     let drawn = strokes(&harness, panel);
-    assert!(matches!(&drawn[0].path, Path::Pattern(points) if points.len() >= 2));
+    assert!(matches!(&drawn[0].path, StrokePath::Pattern(points) if points.len() >= 2));
     assert_ne!(picture(&mut harness), plain);
 
     // Put away, the button selects again.

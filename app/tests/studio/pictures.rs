@@ -38,7 +38,7 @@ fn comb(harness: &mut Harness<'_, App>) {
     let rect = harness.get_by(named).rect();
     let at = |x: f32, y: f32| rect.lerp_inside(egui::vec2(x, y));
     for [from, to] in [[at(0.25, 0.85), at(0.7, 0.75)], [at(0.25, 0.55), at(0.7, 0.65)]] {
-        super::directions::drag(harness, from, to);
+        directions::drag(harness, from, to);
     }
     show_tab(harness, "Comb");
 }

@@ -7,9 +7,7 @@ use amc_core::mesh::{Garment, SurfacePlace};
 use egui::Painter;
 use serde_json::Value;
 use studio_plugin::document::Project;
-use studio_plugin::{
-    Ask, Command, Context, Cover, FileKind, Hand, Job, Pane, Place, Plugin, ViewportView,
-};
+use studio_plugin::{Ask, Command, Context, Cover, FileKind, Hand, Job, Pane, Place, Plugin, ViewportView};
 
 use crate::assignments::{Assignments, ID};
 use crate::comb::pane::CombPane;

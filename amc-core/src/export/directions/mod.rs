@@ -73,12 +73,14 @@ pub fn tangents(
     let panels = garment.panels.len();
     let nothing = vec![Said::default(); if said.is_empty() { panels } else { 0 }];
     let said = if said.is_empty() { &nothing } else { said };
-    if tangents.vectors.len() != garment.positions.len()
-        || [tangents.filled.len(), tangents.made_up.len(), directions.len(), said.len()] != [panels; 4]
+    let Tangents { vectors, filled, made_up, combed } = tangents;
+    if vectors.len() != garment.positions.len()
+        || [filled.len(), made_up.len(), combed.len(), directions.len(), said.len()] != [panels; 5]
     {
         return Err(Error::invalid("the directions are not those of this garment").in_file(path));
     }
-    let is_field = |index: usize| matches!(directions[index].source, Source::Field(_));
+    let is_field =
+        |index: usize| matches!(directions[index].source, Source::Field(_)) || tangents.combed[index];
     let frames: Vec<Frame> = (directions.iter().enumerate())
         .map(|(index, direction)| Frame::new(garment, index, direction, is_field(index)))
         .collect();

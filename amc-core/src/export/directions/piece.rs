@@ -20,6 +20,8 @@ pub(super) struct Piece<'a> {
     /// Vertices whose direction its source does not give.
     pub(super) filled: u32,
     pub(super) made_up: bool,
+    /// Whether strokes comb its direction.
+    pub(super) is_combed: bool,
     /// xyz the direction; w +1, or -1 where the UVs are mirrored: with v up, v runs along `w * cross(normal, xyz)`.
     pub(super) tangents: Vec<Vec4>,
     /// Unit vectors along warp and weft.
@@ -60,6 +62,7 @@ impl<'a> Piece<'a> {
             frames: all.frames,
             filled: all.tangents.filled[index],
             made_up: all.tangents.made_up[index],
+            is_combed: all.tangents.combed[index],
             tangents: along.iter().zip(signs).map(|(along, sign)| along.extend(sign)).collect(),
             yarns,
             mesh,

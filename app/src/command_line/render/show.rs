@@ -3,9 +3,10 @@
 use std::str::FromStr;
 use std::sync::Arc;
 
-use amc_core::mesh::Garment;
+use amc_core::mesh::{Garment, Panel};
 use amc_core::render::{Cloth, Drawing};
 use amc_core::{Error, Progress, Result};
+use studio_plugin::document::Project;
 use tangent_editor::seeing::{Asked, Cut, ENLARGEMENTS, Settings, Show, seen};
 
 use crate::scene::PanelLook;
@@ -47,15 +48,20 @@ impl ShowChoice {
     /// Lays it over a drawing of `garment`.
     pub(super) fn over(
         self,
-        garment: &Garment,
+        (garment, project): (&Garment, Option<&Project>),
         looks: &[PanelLook],
         drawing: &Drawing,
         progress: &Progress<'_>,
     ) -> Result<Drawing> {
+        let is_combed = |panel: &Panel| project.is_some_and(|it| it.comb(&panel.id).is_some());
+        let cut = |(look, panel): (&PanelLook, &Panel)| Cut {
+            direction: look.direction,
+            is_combed: is_combed(panel),
+        };
         let asked = Asked {
             garment: Arc::new(garment.clone()),
             vectors: Arc::clone(&drawing.tangents),
-            cuts: looks.iter().map(|look| Cut { direction: look.direction, is_combed: false }).collect(),
+            cuts: looks.iter().zip(&garment.panels).map(cut).collect(),
             show: self.show,
             settings: self.settings,
         };

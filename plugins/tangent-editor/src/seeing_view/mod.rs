@@ -7,7 +7,7 @@ mod textures;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use amc_core::mesh::Garment;
+use amc_core::mesh::{Garment, Panel};
 use egui::{Key, KeyboardShortcut, Modifiers};
 use serde_json::Value;
 use studio_plugin::document::Project;
@@ -177,6 +177,9 @@ impl SeeingView {
 
 /// How all panels are cut.
 fn cuts(garment: &Garment, project: &Project) -> Vec<Cut> {
-    let cut = |panel| Cut { direction: grain::direction(panel, project), is_combed: false };
+    let cut = |panel: &Panel| Cut {
+        direction: grain::direction(panel, project),
+        is_combed: project.comb(&panel.id).is_some(),
+    };
     garment.panels.iter().map(cut).collect()
 }
