@@ -3,13 +3,13 @@
 use amc_core::direction::comb::{Path as StrokePath, Stroke};
 use amc_core::mesh::{self, Garment, Unit};
 use amc_studio::studio::Studio;
-use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, vec2};
+use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, Rect, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
 use super::*;
 
-fn near(harness: &Harness<'_, App>, panel: &str, expected: f32) {
+pub(super) fn near(harness: &Harness<'_, App>, panel: &str, expected: f32) {
     let found = degrees(harness, panel).unwrap_or(f32::NAN);
     assert!((found - expected).abs() < 0.05, "{panel}: {found}, expected {expected}");
 }
@@ -107,7 +107,7 @@ fn strokes(harness: &Harness<'_, App>, panel: &str) -> Vec<Stroke> {
 }
 
 /// Where a piece of the flat pattern is in the window.
-fn piece(harness: &Harness<'_, App>, name: &str) -> egui::Rect {
+fn piece(harness: &Harness<'_, App>, name: &str) -> Rect {
     let named = format!("Piece {name},");
     harness.get_by(|node| node.label().is_some_and(|label| label.starts_with(&named))).rect()
 }
@@ -210,6 +210,68 @@ fn an_edge_is_clicked_and_the_grain_laid_along_it() {
 }
 
 #[test]
+fn the_arrow_on_the_garment_is_dragged_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    // A pocket lies on it.
+    select(&mut harness, "left front");
+    let garment = harness.get_by_label("Garment").rect();
+    let tips: Vec<Rect> = harness.get_all_by_label("Grain of left front").map(|node| node.rect()).collect();
+    let on_garment = tips.iter().find(|tip| garment.contains_rect(**tip)).expect("a tip on the garment");
+    let before = picture(&mut harness);
+    let tip = on_garment.center();
+    // The front hangs down with its warp upright: to the wearer's left is clockwise as it is seen.
+    drag(&mut harness, tip, tip + vec2(40.0, 0.0));
+    let turned = degrees(&harness, "left-front").unwrap();
+    assert!((30.0..85.0).contains(&turned), "{turned}");
+    assert_eq!(harness.state().document().steps().count(), 1, "a drag is one step");
+    assert_ne!(picture(&mut harness), before);
+    press(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert_eq!(degrees(&harness, "left-front"), None);
+}
+
+#[test]
+fn two_points_make_a_line_and_a_piece_is_turned_on_the_screen_but_not_its_grain() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window(Studio::new(), folder.path());
+    let back = piece(&harness, "back");
+    for share in [vec2(0.25, 0.75), vec2(0.75, 0.45)] {
+        let at = back.lerp_inside(share);
+        let modifiers = Modifiers::ALT;
+        let click =
+            |pressed| Event::PointerButton { pos: at, button: PointerButton::Primary, pressed, modifiers };
+        harness.event_modifiers(Event::PointerMoved(at), modifiers);
+        harness.event_modifiers(click(true), modifiers);
+        harness.event_modifiers(click(false), modifiers);
+        settle(&mut harness);
+    }
+    press(&mut harness, Modifiers::NONE, Key::E);
+    let expected = (0.3 * back.height()).atan2(0.5 * back.width()).to_degrees();
+    let found = degrees(&harness, "back").unwrap().rem_euclid(180.0);
+    assert!((found - expected).abs() < 1.0, "{found}, expected {expected}");
+
+    // On the screen a quarter turn: the piece lies down, its grain stays.
+    select(&mut harness, "back");
+    command(&mut harness, "on the screen by +90");
+    let lying = piece(&harness, "back");
+    let proportions = |rect: Rect| rect.width() / rect.height();
+    assert!((proportions(lying) * proportions(back) - 1.0).abs() < 0.02, "{back} {lying}");
+    let after = degrees(&harness, "back").unwrap().rem_euclid(180.0);
+    assert_eq!(found, after);
+    show_tab(&mut harness, "Grain");
+    let shown = harness.get_by_role_and_label(egui::Role::SpinButton, "Warp").value().unwrap();
+    assert!(
+        (shown.trim_end_matches('\u{b0}').parse::<f32>().unwrap().rem_euclid(180.0) - found).abs() < 0.06
+    );
+
+    // As far off the grain of the yoke as off that of the back.
+    press(&mut harness, Modifiers::COMMAND, Key::C);
+    select(&mut harness, "yoke");
+    command(&mut harness, "relative to the piece");
+    near(&harness, "yoke", degrees(&harness, "back").unwrap() - 90.0);
+}
+
+#[test]
 fn a_shirt_that_lies_off_its_grain_is_set_straight() {
     let folder = tempfile::tempdir().unwrap();
     let garment = std::path::absolute("../assets/garments/variants/shirt-turned.glb").unwrap();
@@ -248,7 +310,7 @@ fn a_shirt_that_lies_off_its_grain_is_set_straight() {
 }
 
 /// Runs a command that asks for a file, and types it.
-fn command_with_file(harness: &mut Harness<'_, App>, name: &str, file: &Path, button: &str) {
+pub(super) fn command_with_file(harness: &mut Harness<'_, App>, name: &str, file: &Path, button: &str) {
     command(harness, name);
     let field = |node: &egui_kittest::kittest::AccessKitNode<'_>| {
         node.role() == egui::Role::TextInput && node.is_focused()

@@ -12,7 +12,7 @@ use studio_plugin::document::{Edit, Project};
 pub const ID: &str = "tangent-editor";
 
 /// What was said of a panel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Assignment {
     /// In which turns it may be laid on the cloth.
@@ -21,10 +21,12 @@ pub struct Assignment {
     pub is_locked: bool,
     /// Whether its mirror partner follows it.
     pub is_linked: bool,
+    /// How far its flat piece is turned on the screen from how the UVs draw it, degrees counter-clockwise: no matter of its grain.
+    pub screen_turn_deg: f32,
 }
 
 /// What was said of all panels, by their ids.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Assignments {
     version: u32,
     panels: BTreeMap<String, Assignment>,

@@ -8,10 +8,11 @@ use glam::{Vec2, Vec3};
 use studio_plugin::document::Edit;
 use studio_plugin::{Command, Context};
 
+use crate::assignments::Assignments;
 use crate::comb;
 use crate::exchange;
 use crate::grain::{self, align, partners};
-use crate::pattern::PickedEdge;
+use crate::pattern::PickedLine;
 use crate::sheet::Sheet;
 use crate::texts::{self, comb as comb_texts};
 
@@ -36,6 +37,8 @@ pub(crate) const COMMANDS: &[Command] = &[
     command("bias-45", texts::BIAS_45, texts::PRESET_TIP),
     command("bias-135", texts::BIAS_135, texts::PRESET_TIP),
     keyed(command("align-edge", texts::EDGE, texts::EDGE_TIP), Modifiers::NONE, Key::E),
+    keyed(command("next-edge", texts::NEXT_EDGE, texts::NEXT_EDGE_TIP), Modifiers::SHIFT, Key::E),
+    command("comb-edge", comb_texts::EDGE, comb_texts::EDGE_TIP),
     command("align-partner", texts::PARTNER, texts::PARTNER_TIP),
     command("align-up", texts::UP, texts::AXIS_TIP),
     command("align-across", texts::ACROSS, texts::AXIS_TIP),
@@ -43,6 +46,7 @@ pub(crate) const COMMANDS: &[Command] = &[
     keyed(command("copy", texts::COPY, texts::COPY_TIP), Modifiers::COMMAND, Key::C),
     keyed(command("paste", texts::PASTE, texts::PASTE_TIP), Modifiers::COMMAND, Key::V),
     command("paste-mirrored", texts::PASTE_MIRRORED, texts::PASTE_TIP),
+    command("paste-relative", texts::PASTE_RELATIVE, texts::PASTE_RELATIVE_TIP),
     keyed(command("mirror", texts::MIRROR, texts::MIRROR_TIP), Modifiers::SHIFT, Key::M),
     command("reset", texts::RESET, texts::RESET_TIP),
     keyed(
@@ -50,6 +54,9 @@ pub(crate) const COMMANDS: &[Command] = &[
         Modifiers::NONE,
         Key::Delete,
     ),
+    command("lie-left", texts::LIE_LEFT, texts::LIE_TIP),
+    command("lie-right", texts::LIE_RIGHT, texts::LIE_TIP),
+    command("lie-drawn", texts::LIE_DRAWN, texts::LIE_TIP),
     command("save-sheet", texts::SAVE, texts::SAVE_TIP),
     command(exchange::IMPORT, texts::IMPORT, texts::IMPORT_TIP),
     command(exchange::EXPORT, texts::EXPORT, texts::EXPORT_TIP),
@@ -59,21 +66,28 @@ pub(crate) const COMMANDS: &[Command] = &[
 pub(crate) const COMB_TOOL: Command =
     keyed(command(comb::TOOL, comb_texts::TOOL, comb_texts::TOOL_TIP), Modifiers::NONE, Key::B);
 
+/// A grain that was copied.
+#[derive(Debug, Clone, Copy)]
+struct Copied {
+    direction: Direction,
+    /// From the grain of its own piece, radians.
+    off_straight: f32,
+}
+
 /// What commands take from earlier ones.
 #[derive(Debug, Default)]
 pub(crate) struct Given {
-    /// What was copied.
-    copied: Option<Direction>,
-    /// The edge that was clicked last.
-    pub(crate) picked_edge: Option<PickedEdge>,
+    copied: Option<Copied>,
+    /// The edge that was clicked last, or the way between the two points that were.
+    pub(crate) picked: Option<PickedLine>,
 }
 
 /// Whether a command can be run.
 pub(crate) fn can_run(id: &str, sheet: &Sheet, given: &Given, studio: &Context<'_>) -> bool {
     let panels = || grain::picked(&sheet.garment, studio);
     match id {
-        "paste" | "paste-mirrored" => given.copied.is_some(),
-        "align-edge" => given.picked_edge.is_some(),
+        "paste" | "paste-mirrored" | "paste-relative" => given.copied.is_some(),
+        "align-edge" | "comb-edge" => given.picked.is_some(),
         "copy" => !studio.selection.panels.is_empty(),
         "mirror" => panels().iter().any(|&panel| partners::partner(&sheet.garment, panel).is_some()),
         "align-partner" => {
@@ -104,7 +118,15 @@ pub(crate) fn run(id: &str, sheet: &Sheet, given: &mut Given, studio: &mut Conte
         "weft" => cut(FRAC_PI_2, studio),
         "bias-45" => cut(-FRAC_PI_4, studio),
         "bias-135" => cut(FRAC_PI_4, studio),
-        "align-edge" => align_edge(sheet, given.picked_edge.as_ref(), studio),
+        "align-edge" => align_edge(sheet, given.picked.as_ref(), studio),
+        "comb-edge" => comb_edge(sheet, given.picked.as_ref(), studio),
+        "next-edge" => {
+            let next = panels.iter().find_map(|&panel| PickedLine::next(sheet, panel, given.picked.as_ref()));
+            given.picked = next;
+        }
+        "lie-left" => lie(&panels, sheet, studio, |turn| turn + 90.0),
+        "lie-right" => lie(&panels, sheet, studio, |turn| turn - 90.0),
+        "lie-drawn" => lie(&panels, sheet, studio, |_| 0.0),
         "align-partner" => {
             let project = studio.document.project().clone();
             let of = |partner: usize| grain::direction(&garment.panels[partner], &project);
@@ -117,20 +139,29 @@ pub(crate) fn run(id: &str, sheet: &Sheet, given: &mut Given, studio: &mut Conte
         "align-across" => align_axis(&panels, sheet, studio, Vec3::NEG_X),
         "align-forward" => align_axis(&panels, sheet, studio, Vec3::Z),
         "copy" => {
-            let first = panels
-                .first()
-                .map(|&panel| grain::direction(&garment.panels[panel], studio.document.project()));
-            given.copied = first;
+            let of = |&panel: &usize| {
+                let direction = grain::direction(&garment.panels[panel], studio.document.project());
+                Copied { direction, off_straight: direction.angle - straight(sheet, panel) }
+            };
+            given.copied = panels.first().map(of);
         }
         "paste" => {
-            if let Some(direction) = given.copied {
+            if let Some(Copied { direction, .. }) = given.copied {
                 grain::set(&panels, garment, studio, |_, _| Some(direction));
             }
         }
         "paste-mirrored" => {
-            if let Some(direction) = given.copied {
+            if let Some(Copied { direction, .. }) = given.copied {
                 let angle = wrapped(PI - direction.angle);
                 grain::set(&panels, garment, studio, |_, _| Some(Direction { angle, ..direction }));
+            }
+        }
+        "paste-relative" => {
+            if let Some(Copied { direction, off_straight }) = given.copied {
+                let along = |panel: usize| wrapped(straight(sheet, panel) + off_straight);
+                grain::set(&panels, garment, studio, |panel, _| {
+                    Some(Direction { angle: along(panel), ..direction })
+                });
             }
         }
         "mirror" => mirror(&panels, sheet, studio),
@@ -179,7 +210,7 @@ fn aligned(
 }
 
 /// Along the edge; of its two ways the one nearer to where the grain is.
-fn align_edge(sheet: &Sheet, picked: Option<&PickedEdge>, studio: &mut Context<'_>) {
+fn align_edge(sheet: &Sheet, picked: Option<&PickedLine>, studio: &mut Context<'_>) {
     let found = picked.and_then(|picked| Some((picked, sheet.piece(picked.panel)?)));
     let Some((picked, piece)) = found else {
         return studio.notices.note(texts::EDGE_TIP);
@@ -190,6 +221,30 @@ fn align_edge(sheet: &Sheet, picked: Option<&PickedEdge>, studio: &mut Context<'
         let along = if along.dot(now.on_cloth(matrix)) < 0.0 { -along } else { along };
         Some(Direction::along_cloth(flat(now.source), along, matrix))
     });
+}
+
+/// Adds a stroke along what was picked.
+fn comb_edge(sheet: &Sheet, picked: Option<&PickedLine>, studio: &mut Context<'_>) {
+    let found = picked.and_then(|picked| Some((picked, sheet.piece(picked.panel)?)));
+    let Some((picked, piece)) = found else {
+        return studio.notices.note(texts::EDGE_TIP);
+    };
+    let to_uvs = piece.uv_to_sheet.inverse();
+    comb::add(sheet, picked.panel, picked.line.iter().map(|&at| to_uvs.transform_point2(at)), studio);
+}
+
+/// Turns the pieces of panels on the screen; `to` goes from degrees to degrees.
+fn lie(panels: &[usize], sheet: &Sheet, studio: &mut Context<'_>, to: impl Fn(f32) -> f32) {
+    let assignments = match Assignments::of(studio.document.project()) {
+        Ok(assignments) => assignments,
+        Err(error) => return studio.notices.failed(error),
+    };
+    let ids = panels.iter().map(|&panel| sheet.garment.panels[panel].id.as_str());
+    let edit = assignments.changed(ids, texts::lying(panels.len()), |it| {
+        let turned = to(it.screen_turn_deg).rem_euclid(360.0);
+        it.screen_turn_deg = if turned.is_finite() { turned } else { 0.0 };
+    });
+    studio.submit(edit);
 }
 
 /// Gives the partners of the panels the mirrored directions.

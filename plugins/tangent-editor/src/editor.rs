@@ -15,6 +15,7 @@ use crate::comb::{self, Stylus};
 use crate::commands::{self, Given};
 use crate::exchange::{self, Exchange};
 use crate::grain;
+use crate::grain::arrow::Arrow;
 use crate::grain_pane::GrainPane;
 use crate::pattern::PatternPane;
 use crate::seeing_view::SeeingView;
@@ -33,6 +34,10 @@ pub struct TangentEditor {
     stylus: Stylus,
     seeing: SeeingView,
     given: Given,
+    /// An arrow that is dragged on the garment.
+    held: Option<Arrow>,
+    /// The revision of the document after which the pieces lie on the screen.
+    lain: Option<u64>,
     /// The place on the garment under the pointer: in the flat pattern, and in the viewport.
     under_pointer: (Option<SurfacePlace>, Option<SurfacePlace>),
     saving: Vec<(String, Job<()>)>,
@@ -146,11 +151,12 @@ impl Plugin for TangentEditor {
             let job = studio.jobs.start(texts::OPENING, move |progress| Sheet::new(of, progress));
             self.laying_out = Some((Arc::clone(garment), job));
         }
+        self.lie(studio);
         if let Some(result) = self.laying_out.as_ref().and_then(|(_, job)| job.poll()) {
             self.laying_out = None;
-            (self.pattern, self.given.picked_edge) = (PatternPane::default(), None);
+            (self.pattern, self.given.picked) = (PatternPane::default(), None);
             match result {
-                Ok(sheet) => self.sheet = Some(sheet),
+                Ok(sheet) => (self.sheet, self.lain) = (Some(sheet), None),
                 Err(error) => studio.notices.failed(error),
             }
         }
@@ -176,7 +182,7 @@ impl Plugin for TangentEditor {
         } else if pane == "pattern" {
             self.seeing.ask(studio);
             let marked = self.under_pointer.1;
-            let given = (&mut self.given.picked_edge, &mut self.stylus, &mut self.seeing);
+            let given = (&mut self.given.picked, &mut self.stylus, &mut self.seeing);
             self.under_pointer.0 = self.pattern.show(ui, sheet, given, marked, studio);
         } else if let Some(clicked) = self.grain.show(ui, sheet, &self.given, studio) {
             self.run(clicked, studio);
@@ -190,7 +196,7 @@ impl Plugin for TangentEditor {
         let visuals = painter.ctx().global_style().visuals.clone();
         let about = (&sheet.garment, &*studio.selection);
         self.seeing.legend(painter, view.rect, &visuals, about);
-        overlay::arrows(painter, view, sheet, studio);
+        overlay::arrows(painter, view, sheet, &mut self.held, studio);
         overlay::strokes(painter, view, sheet, self.stylus.chosen, studio);
         if let Some(place) = &self.under_pointer.0 {
             overlay::mark(painter, view, &sheet.garment, place);
@@ -198,6 +204,21 @@ impl Plugin for TangentEditor {
         let pointer = painter.ctx().input(|input| input.pointer.hover_pos());
         let within = pointer.filter(|at| view.rect.contains(*at));
         self.under_pointer.1 = within.and_then(|at| overlay::place_at(view, at, &sheet.garment));
+    }
+}
+
+impl TangentEditor {
+    /// Turns the pieces on the screen as the project has it.
+    fn lie(&mut self, studio: &Context<'_>) {
+        let revision = Some(studio.document.revision());
+        let Some(sheet) = self.sheet.as_mut().filter(|_| self.lain != revision) else { return };
+        self.lain = revision;
+        // What makes no sense is told wherever it is used.
+        let assignments = Assignments::of(studio.document.project()).unwrap_or_default();
+        if sheet.lie(|panel| assignments.panel(panel).screen_turn_deg.to_radians()) {
+            self.given.picked = None;
+            self.pattern.fit();
+        }
     }
 }
 

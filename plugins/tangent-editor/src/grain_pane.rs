@@ -1,6 +1,9 @@
 //! The pane of the grain: the picked panels' direction by number, by name, by what it is aligned to.
 
+use std::sync::Arc;
+
 use amc_core::direction::Direction;
+use amc_core::mesh::Garment;
 use egui::Ui;
 use studio_plugin::Context;
 use studio_plugin::document::Gesture;
@@ -10,7 +13,8 @@ use crate::commands::{self, COMMANDS, Given};
 use crate::grain::{self, expression, partners};
 use crate::pattern::shown_degrees;
 use crate::sheet::Sheet;
-use crate::{texts, warnings};
+use crate::texts;
+use crate::warnings::{self, Warning};
 
 /// Between groups, points.
 const SPACE: f32 = 8.0;
@@ -19,6 +23,8 @@ const SPACE: f32 = 8.0;
 #[derive(Debug, Default)]
 pub(crate) struct GrainPane {
     dragged: Option<Gesture>,
+    /// What is odd, in the document of this revision and this garment.
+    odd: Option<(u64, Arc<Garment>, Vec<Warning>)>,
 }
 
 impl GrainPane {
@@ -80,15 +86,44 @@ impl GrainPane {
         let copied = [
             ("copy", texts::SHORT_COPY),
             ("paste", texts::SHORT_PASTE),
+            ("paste-relative", texts::SHORT_PASTE_RELATIVE),
             ("paste-mirrored", texts::SHORT_PASTE_MIRRORED),
             ("mirror", texts::SHORT_MIRROR),
             ("reset", texts::SHORT_RESET),
         ];
         row(ui, Some(texts::GRAIN), &copied, studio);
+        let lying = [
+            ("lie-left", texts::LEFT_90),
+            ("lie-right", texts::RIGHT_90),
+            ("lie-drawn", texts::SHORT_LIE_DRAWN),
+        ];
+        row(ui, Some(texts::LIE), &lying, studio);
         ui.add_space(SPACE);
         said(ui, sheet, &panels, studio);
-        told(ui, sheet, studio);
+        self.told(ui, sheet, studio);
         clicked
+    }
+
+    /// What to look at; a click selects the panel.
+    fn told(&mut self, ui: &mut Ui, sheet: &Sheet, studio: &mut Context<'_>) {
+        let revision = studio.document.revision();
+        let is_known =
+            |odd: &(u64, Arc<Garment>, _)| odd.0 == revision && Arc::ptr_eq(&odd.1, &sheet.garment);
+        let found = match self.odd.take().filter(is_known) {
+            Some(known) => known.2,
+            None => warnings::warnings(sheet, studio.document.project()),
+        };
+        if !found.is_empty() {
+            ui.add_space(SPACE);
+            ui.weak(texts::WARNINGS);
+        }
+        for warning in &found {
+            let text = egui::RichText::new(&warning.text).color(ui.visuals().warn_fg_color);
+            if ui.add(egui::Button::new(text).wrap().frame(false)).clicked() {
+                studio.selection.click(&sheet.garment.panels[warning.panel].id, false);
+            }
+        }
+        self.odd = Some((revision, Arc::clone(&sheet.garment), found));
     }
 
     /// The angle of the first panel; all are turned with it. A drag of it is one gesture.
@@ -106,7 +141,7 @@ impl GrainPane {
             }
             if degrees != f64::from(before) {
                 let now = grain::direction(sheet.panel(piece), studio.document.project());
-                let along = glam::Vec2::from_angle(degrees.to_radians() as f32);
+                let along = glam::Vec2::from_angle(degrees.to_radians() as f32 + piece.turn);
                 let wanted = Direction::along_cloth(now.source, along, piece.uv_to_sheet.matrix2);
                 grain::turn(panels, wanted.angle - now.angle, self.dragged, &sheet.garment, studio);
             }
@@ -114,22 +149,6 @@ impl GrainPane {
                 self.dragged = None;
             }
         });
-    }
-}
-
-/// What to look at; a click selects the panel.
-fn told(ui: &mut Ui, sheet: &Sheet, studio: &mut Context<'_>) {
-    let warnings = warnings::warnings(sheet, studio.document.project());
-    if warnings.is_empty() {
-        return;
-    }
-    ui.add_space(SPACE);
-    ui.weak(texts::WARNINGS);
-    for warning in warnings {
-        let text = egui::RichText::new(warning.text).color(ui.visuals().warn_fg_color);
-        if ui.add(egui::Button::new(text).wrap().frame(false)).clicked() {
-            studio.selection.click(&sheet.garment.panels[warning.panel].id, false);
-        }
     }
 }
 

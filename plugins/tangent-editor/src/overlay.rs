@@ -8,6 +8,7 @@ use studio_plugin::{Context, ViewportView};
 
 use crate::comb::{Chosen, Finder, marks};
 use crate::grain;
+use crate::grain::arrow::{self, Arrow, TIP};
 use crate::pattern::head;
 use crate::sheet::{Piece, Sheet};
 
@@ -15,22 +16,32 @@ use crate::sheet::{Piece, Sheet};
 const POINTS: usize = 13;
 /// Points of a stroke on the garment.
 const LINE_POINTS: usize = 32;
+/// What lies on top of a panel, as a pocket or a placket does, is no farther above it than this, metres.
+const LAYER: f32 = 0.015;
 /// Length of its head, points.
 const HEAD: f32 = 10.0;
 
 /// The grain of the panels that are picked or under the pointer, as arrows that lie on the cloth.
-pub(crate) fn arrows(painter: &Painter, view: &ViewportView<'_>, sheet: &Sheet, studio: &Context<'_>) {
-    let selection = &*studio.selection;
+pub(crate) fn arrows(
+    painter: &Painter,
+    view: &ViewportView<'_>,
+    sheet: &Sheet,
+    held: &mut Option<Arrow>,
+    studio: &mut Context<'_>,
+) {
     for piece in &sheet.pieces {
         let panel = sheet.panel(piece);
-        let is_hovered = selection.hovered.as_ref() == Some(&panel.id);
-        if view.hidden.contains(&piece.panel) || !(is_hovered || selection.panels.contains(&panel.id)) {
+        let is_hovered = studio.selection.hovered.as_ref() == Some(&panel.id);
+        let is_picked = studio.selection.panels.contains(&panel.id);
+        if view.hidden.contains(&piece.panel) || !(is_hovered || is_picked) {
             continue;
         }
         let along = grain::direction(panel, studio.document.project()).on_cloth(piece.uv_to_sheet.matrix2);
         let line = line(&sheet.garment, piece, along);
-        let seen: Vec<egui::Pos2> =
-            line.iter().filter_map(|place| is_seen(&sheet.garment, piece.panel, place, view)).collect();
+        let seen: Vec<egui::Pos2> = line
+            .iter()
+            .filter_map(|place| is_seen(&sheet.garment, place.position(&sheet.garment), view))
+            .collect();
         // Only whole arrows: one that goes round the body is seen from one side.
         if seen.len() < line.len() || seen.len() < 2 {
             continue;
@@ -46,7 +57,43 @@ pub(crate) fn arrows(painter: &Painter, view: &ViewportView<'_>, sheet: &Sheet, 
                 Stroke::NONE,
             ));
         }
+        if is_picked {
+            drag_tip(painter.ctx(), view, tip, (sheet, piece), held, studio);
+        }
     }
+}
+
+/// Lets the hand take the tip of an arrow. It is above the garment, which is turned beside it.
+fn drag_tip(
+    ctx: &egui::Context,
+    view: &ViewportView<'_>,
+    tip: egui::Pos2,
+    (sheet, piece): (&Sheet, &Piece),
+    held: &mut Option<Arrow>,
+    studio: &mut Context<'_>,
+) {
+    let area = egui::Area::new(egui::Id::unique(("grain on the garment", piece.panel)));
+    let area = area.order(egui::Order::Middle).fixed_pos(tip - egui::Vec2::splat(TIP)).constrain(false);
+    let shown = area
+        .movable(false)
+        .show(ctx, |ui| ui.allocate_response(egui::Vec2::splat(2.0 * TIP), egui::Sense::drag()));
+    let at = || on_sheet(view, ctx.pointer_interact_pos()?, sheet, piece);
+    arrow::drag(held, &shown.inner, at, (sheet, piece), studio);
+}
+
+/// The place of the sheet at a point of the window: on the panel, and beside it on the plane that touches the panel at the middle of
+/// its arrow.
+fn on_sheet(view: &ViewportView<'_>, at: egui::Pos2, sheet: &Sheet, piece: &Piece) -> Option<Vec2> {
+    let garment = &*sheet.garment;
+    let on_panel =
+        place_at(view, at, garment).filter(|place| sheet.panel(piece).triangles.contains(&place.triangle));
+    let place = on_panel.or_else(|| {
+        let uv = piece.uv_to_sheet.inverse().transform_point2(piece.middle);
+        let ray = view.ray(at);
+        let middle = piece.locator.locate(garment, uv)?;
+        SurfacePlace::on_line(garment, middle.triangle, ray.origin, ray.direction)
+    })?;
+    Some(piece.uv_to_sheet.transform_point2(place.uv(garment)))
 }
 
 /// The strokes and singular points of the panels that are picked or under the pointer.
@@ -61,7 +108,7 @@ pub(crate) fn strokes(
     for (panel, of) in sheet.garment.panels.iter().enumerate() {
         let is_meant = selection.hovered.as_ref() == Some(&of.id) || selection.panels.contains(&of.id);
         if is_meant && !view.hidden.contains(&panel) {
-            let place = |place: &SurfacePlace| is_seen(&sheet.garment, panel, place, view);
+            let place = |place: &SurfacePlace| is_seen(&sheet.garment, place.position(&sheet.garment), view);
             let finder = OnGarment { view, sheet };
             marks::paint(painter, &finder, (&sheet.garment, panel), chosen, place, studio);
         }
@@ -81,10 +128,7 @@ impl Finder for OnGarment<'_> {
 
     fn line(&self, panel: usize, stroke: &comb::Stroke) -> Vec<egui::Pos2> {
         let garment = &*self.sheet.garment;
-        let seen = |at: Vec3| {
-            let at = self.view.to_window(at)?;
-            (self.view.rect.contains(at) && self.view.panel_at(at) == Some(panel)).then_some(at)
-        };
+        let seen = |at: Vec3| is_seen(garment, at, self.view);
         match (&stroke.path, self.sheet.piece(panel)) {
             (comb::Path::Pattern(points), Some(piece)) => finer(points)
                 .filter_map(|uv| seen(piece.locator.locate(garment, uv)?.position(garment)))
@@ -132,13 +176,9 @@ fn line(garment: &Garment, piece: &Piece, along: Vec2) -> Vec<SurfacePlace> {
     (0..POINTS).filter_map(place).collect()
 }
 
-/// Where a place is seen in the window; none where something is before it.
-fn is_seen(
-    garment: &Garment,
-    panel: usize,
-    place: &SurfacePlace,
-    view: &ViewportView<'_>,
-) -> Option<egui::Pos2> {
-    let at = view.to_window(place.position(garment))?;
-    (view.rect.contains(at) && view.panel_at(at) == Some(panel)).then_some(at)
+/// Where a place (object space) is seen in the window; none where something is before it by more than a layer of cloth.
+fn is_seen(garment: &Garment, place: Vec3, view: &ViewportView<'_>) -> Option<egui::Pos2> {
+    let at = view.to_window(place).filter(|at| view.rect.contains(*at))?;
+    let first = place_at(view, at, garment)?.position(garment);
+    ((place - first).dot(view.ray(at).direction) <= LAYER).then_some(at)
 }

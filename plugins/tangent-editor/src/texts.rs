@@ -15,7 +15,7 @@ pub(crate) const FIT: &str = "Show the whole pattern";
 pub(crate) const FIT_TIP: &str = "Brings all pieces of the flat pattern into its pane";
 pub(crate) const FIT_BUTTON: &str = "Fit";
 pub(crate) const SHORT_HELP: &str = "Drag an arrow to turn the grain.";
-pub(crate) const HELP: &str = "Drag the tip of an arrow to turn the grain (Shift: by 15 degrees). Drag beside the pieces to move, scroll to zoom.";
+pub(crate) const HELP: &str = "Drag the tip of an arrow to turn the grain (Shift: by 15 degrees). Click an edge, or two points with Alt held, to pick what the grain can be laid along. Drag beside the pieces to move, scroll to zoom.";
 pub(crate) const ALL: &str = "All panels";
 pub(crate) const ANGLE: &str = "Warp";
 pub(crate) const ANGLE_TIP: &str =
@@ -43,10 +43,21 @@ pub(crate) const BIAS_135_SHORT: &str = "Bias 135\u{b0}";
 pub(crate) const PRESET_TIP: &str =
     "Counted from the grain that the garment's file names, or from upright in the flat pattern";
 pub(crate) const ALIGN: &str = "Align to";
-pub(crate) const EDGE: &str = "Align the grain to the picked edge";
+pub(crate) const EDGE: &str = "Align the grain to the picked edge or points";
 pub(crate) const EDGE_SHORT: &str = "Picked edge";
-pub(crate) const EDGE_TIP: &str =
-    "Click an edge of a piece in the flat pattern first; the panel that it belongs to is turned";
+pub(crate) const EDGE_TIP: &str = "Click an edge of a piece in the flat pattern first, or two points with Alt held; the panel that it belongs to is turned";
+pub(crate) const NEXT_EDGE: &str = "Pick the next edge";
+pub(crate) const NEXT_EDGE_TIP: &str = "Of the first selected panel, from edge to edge round its piece";
+pub(crate) const PASTE_RELATIVE: &str = "Paste the grain relative to the piece";
+pub(crate) const PASTE_RELATIVE_TIP: &str =
+    "As far off the grain of each piece as the copied one is off its own";
+pub(crate) const SHORT_PASTE_RELATIVE: &str = "Paste relative";
+pub(crate) const LIE_LEFT: &str = "Turn the piece on the screen by +90\u{b0}";
+pub(crate) const LIE_RIGHT: &str = "Turn the piece on the screen by -90\u{b0}";
+pub(crate) const LIE_DRAWN: &str = "Lay the piece on the screen as it is drawn";
+pub(crate) const LIE_TIP: &str = "How the flat piece lies on the screen; its grain stays as it is";
+pub(crate) const LIE: &str = "On screen";
+pub(crate) const SHORT_LIE_DRAWN: &str = "As drawn";
 pub(crate) const UP: &str = "Align the grain to the wearer's up";
 pub(crate) const UP_SHORT: &str = "Wearer's up";
 pub(crate) const ACROSS: &str = "Align the grain to the wearer's right";
@@ -213,6 +224,11 @@ pub(crate) fn locked(count: usize) -> String {
 /// For the history.
 pub(crate) fn laid(count: usize, orientation: &str) -> String {
     format!("Lay {} {orientation}", panels(count))
+}
+
+/// For the history.
+pub(crate) fn lying(count: usize) -> String {
+    format!("Turn {} on the screen", panels(count))
 }
 
 /// For the history.

@@ -66,6 +66,21 @@ pub(crate) fn is_free(panel: &str, studio: &mut Context<'_>) -> bool {
     }
 }
 
+/// Adds an exact stroke through points of a panel's flat pattern (UVs).
+pub(crate) fn add(sheet: &Sheet, panel: usize, points: impl Iterator<Item = Vec2>, studio: &mut Context<'_>) {
+    let id = &sheet.garment.panels[panel].id;
+    let mut comb = comb_of(studio.document.project(), id);
+    if comb.strokes.len() >= Comb::MOST_STROKES {
+        return studio.notices.note(texts::FULL);
+    }
+    if is_free(id, studio) {
+        let Stylus { hold, radius, .. } = Stylus::default();
+        let path = Path::Pattern(points.take(Comb::MOST_POINTS).collect());
+        comb.strokes.push(Stroke { path, hold, radius, is_on: true });
+        submit(id, comb, texts::DRAWN, None, studio);
+    }
+}
+
 /// Deletes a stroke.
 pub(crate) fn delete(garment: &Garment, chosen: Chosen, studio: &mut Context<'_>) {
     let id = &garment.panels[chosen.panel].id;

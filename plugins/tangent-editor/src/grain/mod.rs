@@ -1,6 +1,7 @@
 //! The grain of panels: what it is, and the edits that change it.
 
 pub(crate) mod align;
+pub(crate) mod arrow;
 pub(crate) mod expression;
 pub(crate) mod partners;
 pub(crate) mod snap;

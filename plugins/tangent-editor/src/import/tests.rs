@@ -63,7 +63,12 @@ fn said(garment: &Garment) -> Vec<Said> {
     let of = |(k, direction): (usize, Direction)| Said {
         direction,
         fabric: (k == 1).then(|| "Silk".to_owned()),
-        assignment: Assignment { orientation: Orientation::ALL[k % 3], is_locked: k == 2, is_linked: k == 1 },
+        assignment: Assignment {
+            orientation: Orientation::ALL[k % 3],
+            is_locked: k == 2,
+            is_linked: k == 1,
+            ..Assignment::default()
+        },
     };
     directions(garment).into_iter().enumerate().map(of).collect()
 }

@@ -1,31 +1,27 @@
 //! The flat pattern's pane: pieces, seams, grain, beside the garment and linked with it.
 
 pub(crate) mod camera;
+mod on_sheet;
 mod paint;
+mod picked;
 
-use amc_core::direction::Direction;
-use amc_core::direction::comb::{Path, Stroke};
 use amc_core::mesh::SurfacePlace;
-use egui::{CursorIcon, Rect, Response, Sense, pos2, vec2};
+use egui::{Rect, Response, Sense, pos2, vec2};
 use glam::Vec2;
 use studio_plugin::Context;
-use studio_plugin::document::Gesture;
 
 use self::camera::Camera;
-use crate::comb::{self, Finder, Stylus};
+use self::on_sheet::OnSheet;
+pub(crate) use self::picked::PickedLine;
+use crate::comb::{self, Stylus};
 use crate::grain;
+use crate::grain::arrow::{self, Arrow, TIP};
 use crate::seeing_view::SeeingView;
 use crate::sheet::{Piece, Sheet, line};
 use crate::texts::{self, comb as comb_texts};
 
 /// How near the pointer must be to an edge or a seam, points.
 const REACH: f32 = 7.0;
-/// Half the side of what is dragged at an arrow's tip, points.
-const TIP: f32 = 9.0;
-/// With Shift, grains turn in such steps, radians.
-const STEP: f32 = std::f32::consts::PI / 12.0;
-/// Within this a dragged grain falls on a line of its piece, radians.
-const SNAP: f32 = 0.026;
 /// How fast the wheel zooms.
 const WHEEL: f32 = 0.004;
 
@@ -34,25 +30,9 @@ const WHEEL: f32 = 0.004;
 pub(crate) struct PatternPane {
     /// None: the whole is to be shown.
     camera: Option<Camera>,
-    dragged: Option<Turn>,
-}
-
-/// An arrow in the hand.
-#[derive(Debug, Clone, Copy)]
-struct Turn {
-    panel: usize,
-    gesture: Gesture,
-}
-
-/// An edge of a piece.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct PickedEdge {
-    /// The panel's number.
-    pub(crate) panel: usize,
-    /// Its number among the piece's edges.
-    pub(crate) edge: usize,
-    /// Along it, on the cloth laid flat as the UVs draw it.
-    pub(crate) along: Vec2,
+    held: Option<Arrow>,
+    /// The first of two points, and its panel.
+    first_point: Option<(usize, Vec2)>,
 }
 
 /// What is under the pointer.
@@ -74,7 +54,7 @@ impl PatternPane {
         &mut self,
         ui: &mut egui::Ui,
         sheet: &Sheet,
-        (picked_edge, stylus, seeing): (&mut Option<PickedEdge>, &mut Stylus, &mut SeeingView),
+        (picked, stylus, seeing): (&mut Option<PickedLine>, &mut Stylus, &mut SeeingView),
         marked: Option<SurfacePlace>,
         studio: &mut Context<'_>,
     ) -> Option<SurfacePlace> {
@@ -106,7 +86,7 @@ impl PatternPane {
         if is_combing {
             stylus.use_in(&background, &finder, sheet, studio);
         } else if background.clicked() {
-            *picked_edge = click(ui, sheet, under, studio);
+            self.click((ui, sheet), at, (under, REACH / camera.scale), picked, studio);
         }
         pick(ui, sheet, (camera, pane), under, studio);
         if !is_combing {
@@ -114,7 +94,13 @@ impl PatternPane {
         }
         let marked_at = marked.and_then(|place| on_sheet(sheet, &place));
         let over = seeing.shapes(ui.ctx(), sheet, (camera, pane));
-        let seen = paint::Seen { under, picked_edge: picked_edge.as_ref(), marked: marked_at, over };
+        let seen = paint::Seen {
+            under,
+            picked: picked.as_ref(),
+            first_point: self.first_point.map(|(_, at)| at),
+            marked: marked_at,
+            over,
+        };
         paint::paint(&ui.painter_at(pane), sheet, (camera, pane), &seen, ui.visuals(), studio);
         let place = |place: &SurfacePlace| Some(camera.to_window(on_sheet(sheet, place)?, pane));
         for piece in &sheet.pieces {
@@ -124,6 +110,32 @@ impl PatternPane {
         explain(ui, pane, sheet, seeing, studio);
         let piece = &sheet.pieces[under.piece?];
         piece.locator.locate(&sheet.garment, piece.uv_to_sheet.inverse().transform_point2(at?))
+    }
+
+    /// Selects what was clicked, and picks the edge that was; with Alt, points, two of which make a line.
+    fn click(
+        &mut self,
+        (ui, sheet): (&egui::Ui, &Sheet),
+        at: Option<Vec2>,
+        (under, reach): (Under, f32),
+        picked: &mut Option<PickedLine>,
+        studio: &mut Context<'_>,
+    ) {
+        let first = self.first_point.take();
+        let Some(piece) = under.piece.map(|piece| &sheet.pieces[piece]) else {
+            *picked = None;
+            return studio.selection.panels.clear();
+        };
+        if let Some(at) = at.filter(|_| ui.input(|input| input.modifiers.alt)) {
+            let point = to_corner(piece, at, reach);
+            match first.filter(|(panel, _)| *panel == piece.panel) {
+                Some((panel, first)) => *picked = PickedLine::between(panel, first, point),
+                None => self.first_point = Some((piece.panel, point)),
+            }
+            return;
+        }
+        studio.selection.click(&sheet.panel(piece).id, adds(ui));
+        *picked = under.edge.and_then(|(_, edge)| PickedLine::edge(sheet, piece.panel, edge));
     }
 
     fn move_camera(
@@ -163,7 +175,6 @@ impl PatternPane {
         studio: &mut Context<'_>,
     ) {
         for piece in &sheet.pieces {
-            let panel = sheet.panel(piece);
             let along = direction_on_sheet(sheet, piece, studio);
             let tip = camera.to_window(piece.middle + along * piece.half_arrow(along), pane);
             let rect = Rect::from_center_size(tip, vec2(2.0 * TIP, 2.0 * TIP));
@@ -171,62 +182,8 @@ impl PatternPane {
                 continue;
             }
             let response = ui.interact(rect, ui.scope_id().with(("arrow", piece.panel)), Sense::drag());
-            response.widget_info(|| {
-                egui::WidgetInfo::labeled(egui::Role::Slider, true, texts::arrow(&panel.name))
-            });
-            if response.hovered() || response.dragged() {
-                ui.set_cursor_icon(CursorIcon::Grab);
-            }
-            if response.drag_started() {
-                self.dragged = Some(Turn { panel: piece.panel, gesture: Gesture::begin() });
-            }
-            let turn = self.dragged.filter(|turn| turn.panel == piece.panel && response.dragged());
-            if let (Some(turn), Some(at)) = (turn, response.interact_pointer_pos()) {
-                let wanted = (camera.to_sheet(at, pane) - piece.middle).to_angle();
-                let wanted = match ui.input(|input| input.modifiers.shift) {
-                    true => grain::snap::to_step(wanted, STEP),
-                    false => grain::snap::to_lines(wanted, lines(sheet, piece), SNAP),
-                };
-                let matrix = piece.uv_to_sheet.matrix2;
-                let now = grain::direction(panel, studio.document.project());
-                let new = Direction::along_cloth(now.source, Vec2::from_angle(wanted), matrix);
-                let is_picked = studio.selection.panels.contains(&panel.id);
-                let panels =
-                    if is_picked { grain::picked(&sheet.garment, studio) } else { vec![piece.panel] };
-                let by = new.angle - now.angle;
-                if by != 0.0 {
-                    grain::turn(&panels, by, Some(turn.gesture), &sheet.garment, studio);
-                }
-            }
-            if response.drag_stopped() {
-                self.dragged = None;
-            }
-        }
-    }
-}
-
-/// Finds strokes on the sheet.
-struct OnSheet<'a> {
-    sheet: &'a Sheet,
-    camera: Camera,
-    pane: Rect,
-}
-
-impl Finder for OnSheet<'_> {
-    fn place(&self, at: egui::Pos2) -> Option<SurfacePlace> {
-        let at = self.camera.to_sheet(at, self.pane);
-        let piece = self.sheet.pieces.iter().find(|piece| piece.holds(at))?;
-        piece.locator.locate(&self.sheet.garment, piece.uv_to_sheet.inverse().transform_point2(at))
-    }
-
-    fn line(&self, panel: usize, stroke: &Stroke) -> Vec<egui::Pos2> {
-        match (&stroke.path, self.sheet.piece(panel)) {
-            (Path::Pattern(points), Some(piece)) => {
-                let place =
-                    |&uv: &Vec2| self.camera.to_window(piece.uv_to_sheet.transform_point2(uv), self.pane);
-                points.iter().map(place).collect()
-            }
-            _ => Vec::new(),
+            let at = || Some(camera.to_sheet(response.interact_pointer_pos()?, pane));
+            arrow::drag(&mut self.held, &response, at, (sheet, piece), studio);
         }
     }
 }
@@ -241,15 +198,11 @@ fn explain(ui: &egui::Ui, pane: Rect, sheet: &Sheet, seeing: &mut SeeingView, st
     }
 }
 
-/// Selects what was clicked; gives the edge that was.
-fn click(ui: &egui::Ui, sheet: &Sheet, under: Under, studio: &mut Context<'_>) -> Option<PickedEdge> {
-    match under.piece {
-        Some(piece) => studio.selection.click(&sheet.panel(&sheet.pieces[piece]).id, adds(ui)),
-        None => studio.selection.panels.clear(),
-    }
-    let (piece, edge) = under.edge?;
-    let piece = &sheet.pieces[piece];
-    Some(PickedEdge { panel: piece.panel, edge, along: piece.edges[edge].along()? })
+/// The corner of a piece within `reach` of a point; else the point.
+fn to_corner(piece: &Piece, at: Vec2, reach: f32) -> Vec2 {
+    let ends = piece.edges.iter().flat_map(|edge| [edge.line.first(), edge.line.last()]).flatten();
+    let nearest = ends.min_by(|a, b| a.distance(at).total_cmp(&b.distance(at)));
+    nearest.copied().filter(|corner| corner.distance(at) <= reach).unwrap_or(at)
 }
 
 /// Whether a click adds to what is selected.
@@ -293,16 +246,6 @@ fn pick(
     }
 }
 
-/// What a dragged grain falls on: upright, level, the diagonals, the piece's own edges and what its file says.
-fn lines(sheet: &Sheet, piece: &Piece) -> Vec<f32> {
-    let eighth = std::f32::consts::FRAC_PI_4;
-    let mut lines: Vec<f32> = (0..4).map(|k| eighth * k as f32).collect();
-    let panel = sheet.panel(piece);
-    lines.push(Direction::along_grain(panel).on_cloth(piece.uv_to_sheet.matrix2).to_angle());
-    lines.extend(piece.edges.iter().filter_map(|edge| Some(edge.along()?.to_angle())));
-    lines
-}
-
 /// Where a piece's warp runs on the sheet.
 fn direction_on_sheet(sheet: &Sheet, piece: &Piece, studio: &Context<'_>) -> Vec2 {
     grain::direction(sheet.panel(piece), studio.document.project()).on_cloth(piece.uv_to_sheet.matrix2)
@@ -310,7 +253,8 @@ fn direction_on_sheet(sheet: &Sheet, piece: &Piece, studio: &Context<'_>) -> Vec
 
 /// The same as people read it, degrees from 0 to 360.
 pub(crate) fn shown_degrees(sheet: &Sheet, piece: &Piece, studio: &Context<'_>) -> f32 {
-    let degrees = direction_on_sheet(sheet, piece, studio).to_angle().to_degrees().rem_euclid(360.0);
+    let angle = direction_on_sheet(sheet, piece, studio).to_angle() - piece.turn;
+    let degrees = angle.to_degrees().rem_euclid(360.0);
     // What is rounded up to a whole turn is none.
     if degrees > 359.95 { 0.0 } else { degrees }
 }

@@ -8,7 +8,7 @@ use glam::Vec2;
 use studio_plugin::Context;
 
 use super::camera::Camera;
-use super::{PickedEdge, Under, direction_on_sheet, head, shown_degrees};
+use super::{PickedLine, Under, direction_on_sheet, head, shown_degrees};
 use crate::sheet::{Piece, Sheet};
 
 /// Points of the names.
@@ -21,7 +21,9 @@ const ROOM_FOR_NAME: f32 = 34.0;
 /// What is special in this frame.
 pub(super) struct Seen<'a> {
     pub(super) under: Under,
-    pub(super) picked_edge: Option<&'a PickedEdge>,
+    pub(super) picked: Option<&'a PickedLine>,
+    /// The first of two points.
+    pub(super) first_point: Option<Vec2>,
     /// The place under the pointer in the viewport, on the sheet.
     pub(super) marked: Option<Vec2>,
     /// What is seen over each piece.
@@ -52,10 +54,11 @@ pub(super) fn paint(
         paint_grain(painter, sheet, piece, (camera, pane), (visuals, !seen.over.is_empty()), studio);
     }
     let accent = visuals.selection.bg_fill;
-    if let Some(picked) = seen.picked_edge
-        && let Some(edge) = sheet.piece(picked.panel).and_then(|piece| piece.edges.get(picked.edge))
-    {
-        painter.line(edge.line.iter().map(|&at| place(at)).collect(), Stroke::new(3.0, accent));
+    if let Some(picked) = seen.picked {
+        painter.line(picked.line.iter().map(|&at| place(at)).collect(), Stroke::new(3.0, accent));
+    }
+    for &at in seen.first_point.iter().chain(seen.picked.iter().flat_map(|it| it.line.first())) {
+        painter.circle_filled(place(at), 3.5, accent);
     }
     if let Some((piece, edge)) = seen.under.edge {
         let line = sheet.pieces[piece].edges[edge].line.iter().map(|&at| place(at)).collect();

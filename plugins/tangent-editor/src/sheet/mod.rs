@@ -32,6 +32,8 @@ pub(crate) struct Piece {
     /// Its number.
     pub(crate) panel: usize,
     pub(crate) uv_to_sheet: Affine2,
+    /// How far it is turned from how the UVs draw it, radians counter-clockwise: how it lies here, not how it is cut.
+    pub(crate) turn: f32,
     /// Closed lines, the longest first.
     pub(crate) outlines: Vec<Vec<Vec2>>,
     /// Triangles that fill them: indices of all their points, one line after the other.
@@ -72,6 +74,23 @@ impl Sheet {
         self.pieces.iter().find(|piece| piece.panel == panel)
     }
 
+    /// Turns every piece to where it is to lie, `turn` being asked by the panel's id for radians, and lays all out again where one
+    /// lay otherwise. Says whether one did.
+    pub(crate) fn lie(&mut self, turn: impl Fn(&str) -> f32) -> bool {
+        let mut has_moved = false;
+        for piece in &mut self.pieces {
+            let turn = turn(&self.garment.panels[piece.panel].id);
+            if piece.turn != turn {
+                piece.lie(turn);
+                has_moved = true;
+            }
+        }
+        if has_moved {
+            self.size = lay_out(&mut self.pieces);
+        }
+        has_moved
+    }
+
     pub(crate) fn panel(&self, piece: &Piece) -> &Panel {
         &self.garment.panels[piece.panel]
     }
@@ -99,6 +118,7 @@ impl Piece {
         Some(Self {
             panel,
             uv_to_sheet,
+            turn: 0.0,
             fill: fill(&outlines),
             edges,
             seams: seams.collect(),
@@ -128,11 +148,25 @@ impl Piece {
     }
 
     fn shift(&mut self, by: Vec2) {
-        self.uv_to_sheet = Affine2::from_translation(by) * self.uv_to_sheet;
+        self.moved(Affine2::from_translation(by));
+        (self.low, self.high) = (self.low + by, self.high + by);
+    }
+
+    /// Turns it to where it is to lie.
+    fn lie(&mut self, turn: f32) {
+        self.moved(Affine2::from_angle(turn - self.turn));
+        self.turn = turn;
+        let points = || self.outlines.iter().flatten().copied();
+        (self.low, self.high) = points()
+            .fold((Vec2::INFINITY, Vec2::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+    }
+
+    fn moved(&mut self, by: Affine2) {
+        self.uv_to_sheet = by * self.uv_to_sheet;
         let edges = self.edges.iter_mut().flat_map(|edge| edge.line.iter_mut());
         let seams = self.seams.iter_mut().flat_map(|seam| seam.line.iter_mut());
         let points = self.outlines.iter_mut().flatten().chain(edges).chain(seams);
-        points.chain([&mut self.low, &mut self.high, &mut self.middle]).for_each(|point| *point += by);
+        points.chain([&mut self.middle]).for_each(|point| *point = by.transform_point2(*point));
     }
 }
 
@@ -279,6 +313,23 @@ mod tests {
         assert!((area(&[square(0.0, 4.0), hole.clone()]) - 15.0).abs() < 1e-4);
         assert!((area(&[square(0.0, 4.0), hole, square(5.0, 6.0)]) - 16.0).abs() < 1e-4);
         assert!(fill(&[]).is_empty());
+    }
+
+    #[test]
+    fn a_turned_piece_keeps_its_shape_its_arrow_and_its_places() {
+        let garment = Arc::new(Garment::new(shape::mesh("cylinder").unwrap()).unwrap());
+        let mut sheet = Sheet::new(Arc::clone(&garment), &Progress::none()).unwrap();
+        let before = sheet.pieces[0].high - sheet.pieces[0].low;
+        assert!(sheet.lie(|_| std::f32::consts::FRAC_PI_2) && !sheet.lie(|_| std::f32::consts::FRAC_PI_2));
+        let piece = &sheet.pieces[0];
+        let after = piece.high - piece.low;
+        assert!((after - Vec2::new(before.y, before.x)).length() < 1e-4, "{before} {after}");
+        assert!(piece.holds(piece.middle) && sheet.size.cmpgt(after).all());
+        let uv = piece.uv_to_sheet.inverse().transform_point2(piece.middle);
+        assert!(piece.locator.locate(&garment, uv).is_some());
+        assert!(sheet.lie(|_| 0.0));
+        let back = sheet.pieces[0].high - sheet.pieces[0].low;
+        assert!((back - before).length() < 1e-4);
     }
 
     #[test]

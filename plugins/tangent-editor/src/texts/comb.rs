@@ -3,6 +3,9 @@
 pub(crate) const TOOL: &str = "Comb the direction";
 pub(crate) const TOOL_TIP: &str = "Drag on the garment or on its flat pattern to draw strokes that the warp follows; drag a stroke to move it";
 pub(crate) const DELETE_COMMAND: &str = "Delete the chosen stroke";
+pub(crate) const EDGE: &str = "Comb along the picked edge";
+pub(crate) const EDGE_TIP: &str =
+    "Draws a stroke along the edge, or between the two points, that were picked";
 pub(crate) const DRAW: &str = "Draw strokes";
 pub(crate) const DRAW_TIP: &str = "Drag on the garment or on its flat pattern: the warp follows. Drag a stroke to move it, its ends to turn it";
 pub(crate) const NEW: &str = "New strokes";
