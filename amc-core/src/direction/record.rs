@@ -17,6 +17,8 @@ pub struct Record {
     pub source: Option<Source>,
     /// Degrees in the flat pattern, as [`super::Direction::angle`] counts them.
     pub angle_deg: Option<f64>,
+    /// Whether strokes comb the panel: the direction is the one under them.
+    pub combed: Option<bool>,
     /// In which turns the panel may be laid.
     pub orientation: Option<Orientation>,
     /// The name of its fabric.

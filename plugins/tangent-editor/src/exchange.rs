@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use amc_core::direction::{self, Direction};
-use amc_core::mesh::Garment;
+use amc_core::amc::Symmetry;
+use amc_core::direction::{self, Direction, PanelDirection};
+use amc_core::mesh::{Garment, Panel};
 use amc_core::{Progress, export};
 use egui::Context as Egui;
 use studio_plugin::document::{Gesture, Project};
@@ -69,14 +70,37 @@ pub(crate) fn export(
     studio: &mut Context<'_>,
 ) -> Job<()> {
     let path = file.to_owned();
-    studio.jobs.start(texts::saving(file.display()), move |_: &Progress<'_>| save(&garment, &said, &path))
+    let project = studio.document.project();
+    // Strokes are followed as the fabric's symmetry has it.
+    let symmetry = |panel: &Panel| {
+        let table = project.look_of(panel).fabric.and_then(|fabric| studio.stage.fabrics.get(&fabric));
+        table.map_or(Symmetry::Two, |table| table.symmetry).order()
+    };
+    let directions: Vec<PanelDirection> = garment
+        .panels
+        .iter()
+        .map(|panel| PanelDirection {
+            own: grain::direction(panel, project),
+            comb: project.comb(&panel.id).cloned(),
+            symmetry: symmetry(panel),
+        })
+        .collect();
+    let write = move |progress: &Progress<'_>| save(&garment, &directions, &said, &path, *progress);
+    studio.jobs.start(texts::saving(file.display()), write)
 }
 
 /// Saves the directions of a garment: see [`export::tangents`]. `said` is of each panel.
-fn save(garment: &Garment, said: &[Said], path: &Path) -> amc_core::Result<()> {
-    let directions: Vec<Direction> = said.iter().map(|said| said.direction).collect();
+fn save(
+    garment: &Garment,
+    directions: &[PanelDirection],
+    said: &[Said],
+    path: &Path,
+    progress: Progress<'_>,
+) -> amc_core::Result<()> {
+    let tangents = direction::combed_tangents(garment, directions, progress)?;
+    let own: Vec<Direction> = directions.iter().map(|direction| direction.own).collect();
     let said: Vec<export::Said> = said.iter().map(Said::exported).collect();
-    export::tangents(garment, &direction::tangents(garment, &directions)?, &directions, &said, path)
+    export::tangents(garment, &tangents, &own, &said, path)
 }
 
 fn directions(garment: &Garment, project: &Project) -> Vec<Direction> {

@@ -171,6 +171,11 @@ pub(crate) fn kept_locked(names: &str) -> String {
     format!("locked, so the direction stays: {names}")
 }
 
+/// Panels of an import that strokes comb.
+pub(crate) fn kept_strokes(names: &str) -> String {
+    format!("strokes comb these, and stay over the direction: {names}")
+}
+
 /// Fabrics of an import.
 pub(crate) fn no_such_fabrics(names: &str) -> String {
     format!("the project has no fabrics of these names: {names}")

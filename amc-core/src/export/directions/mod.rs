@@ -39,7 +39,8 @@ type Write = fn(&Garment, &[Piece<'_>], &mut dyn io::Write) -> Result<()>;
 ///     warp yarns is drawn out across them. Strength and roughness are a middling cloth's.
 ///   - `extras`: `id`, `name`, `source`, `angle_deg` (in the pattern as drawn), `grain_deg` (the same on the cloth in its true
 ///     proportions; null where it is a field or there are no UVs), `follows_pattern` (whether the direction is one in the
-///     pattern: false says that `TANGENT` and the yarns hold a field, and `TEXCOORD_0` is not turned), `warp_weft_swapped`
+///     pattern: false says that `TANGENT` and the yarns hold a field, and `TEXCOORD_0` is not turned), `combed` (whether the
+///     field is one of strokes: `source` and `angle_deg` are the direction under them), `warp_weft_swapped`
 ///     (whether it runs across the panel's own grain), `takes_fabric`, `fabric`, `orientation` (`two-way`, `one-way`, `nap`),
 ///     `locked`, `linked`, `mirror_partner` (an id) and `unit`; and under `amc` what [`crate::mesh::gltf`] says.
 /// - `.obj`: a group per panel. OBJ has no tangents, so the UVs are those of `TEXCOORD_0`, v up.

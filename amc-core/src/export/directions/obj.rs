@@ -22,7 +22,7 @@ pub(super) fn write(_: &Garment, pieces: &[Piece<'_>], out: &mut dyn Write) -> R
             return here("there are none");
         }
         if piece.frame.is_field {
-            return here("this one is a field");
+            return here("this one is a field or combed");
         }
     }
     write_all(pieces, out).map_err(|source| Error::io("cannot write", source))

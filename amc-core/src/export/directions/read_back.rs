@@ -243,6 +243,23 @@ fn a_field_is_in_the_tangents_and_said_to_be_one() {
 }
 
 #[test]
+fn a_combed_panel_is_a_field_and_no_obj() {
+    let cases = cases();
+    let garment = garment(&cases);
+    let directions: Vec<Direction> = cases.iter().map(|case| case.direction).collect();
+    let mut made = direction::tangents(&garment, &directions).unwrap();
+    made.combed[2] = true;
+    let folder = tempfile::tempdir().unwrap();
+    let save = |name: &str| tangents(&garment, &made, &directions, &[], &folder.path().join(name));
+    assert!(save("a.obj").unwrap_err().to_string().contains("combed"));
+    save("a.json").unwrap();
+    let text = file::read(&folder.path().join("a.json"), 1 << 26).unwrap();
+    let json: Value = serde_json::from_slice(&text).unwrap();
+    let said = |index: usize| ["combed", "follows_pattern"].map(|key| json["panels"][index][key].clone());
+    assert_eq!((said(2), said(1)), ([true, false].map(Value::from), [false, true].map(Value::from)));
+}
+
+#[test]
 fn extras_and_materials_say_what_is_known() {
     let cases = cases();
     let mut garment = garment(&cases);

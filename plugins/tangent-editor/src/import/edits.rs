@@ -56,6 +56,14 @@ pub fn edits(import: &Import, garment: &Garment, project: &Project) -> Result<Pl
     if !locked.is_empty() {
         planned.notices.push(texts::kept_locked(&locked));
     }
+    let combed = import
+        .found
+        .iter()
+        .filter(|found| found.direction.is_some() && id(found).is_some_and(|id| project.comb(&id).is_some()));
+    let combed = listed(combed.map(|found| name(&found)));
+    if !combed.is_empty() {
+        planned.notices.push(texts::kept_strokes(&combed));
+    }
     if !unknown.is_empty() {
         planned.notices.push(texts::no_such_fabrics(&listed(unknown.iter().map(String::as_str))));
     }

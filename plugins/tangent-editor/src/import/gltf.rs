@@ -34,7 +34,7 @@ pub(super) fn read(garment: &Garment, path: &Path) -> Result<Vec<Entry>> {
         };
         let is_ours = record.angle_deg.is_some();
         let same = said.drawn.is_some_and(|drawn| is_drawn_so(garment, &record.id, drawn));
-        let mut remarks = Vec::new();
+        let mut remarks: Vec<&str> = Vec::new();
         let way = match on_piece {
             _ if is_ours && (is_field || same) => in_uvs()?,
             Some(way) => way,
@@ -46,6 +46,9 @@ pub(super) fn read(garment: &Garment, path: &Path) -> Result<Vec<Entry>> {
         };
         if said.varies && matches!(way, Way::OnPiece(_)) {
             remarks.push("the direction differs from place to place: the mean is taken");
+        }
+        if matches!(way, Way::InUvs { .. }) {
+            remarks.extend(json::strokes(&record));
         }
         let name = clean(record.name.as_deref().unwrap_or(&panel.name));
         let outlines = std::mem::take(&mut outlines[index]).into_iter().collect();

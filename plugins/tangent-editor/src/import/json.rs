@@ -64,7 +64,14 @@ fn entry(number: usize, record: Record) -> Result<Entry> {
     };
     let name = clean(name);
     let way = way(&record).map_err(here)?;
-    Ok(Entry { name, way, record, quantity: 1, ..Entry::default() })
+    let remarks = strokes(&record).into_iter().collect();
+    Ok(Entry { name, way, record, quantity: 1, remarks, ..Entry::default() })
+}
+
+/// What is to be told of a combed panel.
+pub(super) fn strokes(record: &Record) -> Option<&'static str> {
+    let told = "strokes comb it, which are not in the file: only the direction under them is taken";
+    (record.combed == Some(true)).then_some(told)
 }
 
 /// The direction of a record in the panel's own UVs.
