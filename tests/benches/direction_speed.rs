@@ -1,12 +1,11 @@
 //! The directions of a mesh of 470,000 triangles, against the crate `mikktspace` on the same mesh in the same run.
 //! Prints the medians and their ratio; ends with 1 where the ratio is under [`LEAST_RATIO`].
 
-use std::f32::consts::TAU;
 use std::process::ExitCode;
 
 use amc_core::direction::{Direction, Source, tangents};
-use amc_core::mesh::{Garment, Panel};
-use glam::{Vec2, Vec3};
+use amc_core::mesh::Garment;
+use studio_tests::large_garment::waving_panels;
 use studio_tests::timing::{is_wanted, median, milliseconds, timed};
 
 /// How many times faster than `mikktspace` the directions must be.
@@ -22,7 +21,7 @@ fn main() -> ExitCode {
     if !is_wanted() {
         return ExitCode::SUCCESS;
     }
-    let garment = garment();
+    let garment = waving_panels(PANELS, CELLS);
     let directions: Vec<Direction> = (0..PANELS)
         .map(|k| Direction {
             source: if k % 2 == 0 { Source::Gradient } else { Source::Yarn },
@@ -63,39 +62,6 @@ fn report(line: &str) {
 fn fail(line: &str) -> ExitCode {
     eprintln!("direction_speed: {line}");
     ExitCode::FAILURE
-}
-
-/// Waving panels side by side, their UVs sheared a little.
-fn garment() -> Garment {
-    let mut garment = Garment { has_uvs: true, ..Garment::default() };
-    for panel in 0..PANELS {
-        let (first, start) = (garment.positions.len() as u32, garment.triangles.len() as u32);
-        for row in 0..=CELLS {
-            for column in 0..=CELLS {
-                let p = Vec2::new(column as f32, row as f32) / CELLS as f32;
-                let (sin, cos) = (p.x * TAU * 3.0 + p.y + panel as f32).sin_cos();
-                let slope = Vec2::new(TAU * 3.0, 1.0) * (0.05 * cos);
-                garment.positions.push(Vec3::new(p.x + panel as f32 * 1.1, p.y, 0.05 * sin));
-                garment.normals.push((-slope).extend(1.0).normalize_or(Vec3::Z));
-                garment.uvs.push(Vec2::new(p.x + 0.1 * p.y * p.y, p.y));
-                if row < CELLS && column < CELLS {
-                    let k = first + row * (CELLS + 1) + column;
-                    let above = k + CELLS + 1;
-                    garment.triangles.extend([[k, k + 1, above + 1], [k, above + 1, above]]);
-                }
-            }
-        }
-        garment.panels.push(Panel {
-            id: panel.to_string(),
-            name: panel.to_string(),
-            triangles: start..garment.triangles.len() as u32,
-            takes_fabric: true,
-            area: 1.0,
-            flags: Default::default(),
-            pattern: Default::default(),
-        });
-    }
-    garment
 }
 
 /// The same mesh as `mikktspace` asks for it.

@@ -42,6 +42,8 @@ const FRAMES: usize = 120;
 const PRIMITIVES: usize = 5;
 const ISLANDS: usize = 8;
 const SIDE: usize = 80;
+/// 10 x 10 panels, for the flat pattern.
+const PIECES: usize = 10;
 
 /// Where this process is to keep its caches; set for the second of two.
 const INSIDE: &str = "--inside";
@@ -121,8 +123,13 @@ fn in_this_process() -> ExitCode {
     amc_core::file::save_bytes(&path, &glb).expect("the file is written");
     let mut harness = window(folder.path());
     let is_never_held_up = opening(&mut harness, &path);
-    let is_quick = frames(&mut harness);
-    ExitCode::from(u8::from(!(is_never_held_up && is_quick)))
+    let is_quick = frames(&mut harness) & turning_one(&mut harness);
+    let glb = large_garment::glb(PIECES, PIECES, 20);
+    amc_core::file::save_bytes(&path, &glb).expect("the file is written");
+    harness.state_mut().open(&path);
+    settle(&mut harness, |_| {});
+    let is_fluent = pattern(&mut harness);
+    ExitCode::from(u8::from(!(is_never_held_up && is_quick && is_fluent)))
 }
 
 fn window(folder: &Path) -> Harness<'static, App> {
@@ -194,6 +201,40 @@ fn frames(harness: &mut Harness<'_, App>) -> bool {
     println!("the longest frame when all directions change: {:.1} ms", milliseconds(longest));
     report("a frame while the pointer passes over the garment", median(passing), FRAME)
         & report("a frame while the garment turns", median(turning), FRAME)
+}
+
+/// Frames in which one of the 40 panels is turned by a key: it is drawn at once, without a job.
+fn turning_one(harness: &mut Harness<'_, App>) -> bool {
+    harness.key_press(egui::Key::Escape);
+    settle(harness, |_| {});
+    harness.get_by_label("Garment").click();
+    settle(harness, |_| {});
+    let turn = |harness: &mut Harness<'_, App>| {
+        harness.key_press(egui::Key::CloseBracket);
+        let time = own_time(harness);
+        let is_turned = harness.state().document().undo_name().is_some_and(|name| name.contains("1 panel"));
+        assert!(is_turned && harness.state().is_settled(), "one panel is turned within the frame");
+        time
+    };
+    let times = (0..16).map(|_| turn(harness)).collect();
+    report("a frame that turns one panel", median(times), FRAME)
+}
+
+/// Frames in which the pointer passes over the flat pattern of 100 panels.
+fn pattern(harness: &mut Harness<'_, App>) -> bool {
+    let pieces = harness
+        .query_all_by(|node| node.label().is_some_and(|label| label.starts_with("Piece ")))
+        .map(|node| node.rect())
+        .collect::<Vec<_>>();
+    assert_eq!(pieces.len(), PIECES * PIECES, "all pieces are in sight");
+    let whole = pieces.iter().fold(pieces[0], |whole, rect| whole.union(*rect));
+    let mut passing = Vec::new();
+    for frame in 0..FRAMES {
+        let share = frame as f32 / FRAMES as f32;
+        harness.hover_at(whole.lerp_inside(egui::vec2(share, (7.0 * share).fract())));
+        passing.push(own_time(harness));
+    }
+    report("a frame while the pointer passes over 100 flat pieces", median(passing), FRAME)
 }
 
 /// One frame's processor time on the interface's thread: the studio, egui, tessellation, and what the thread itself does

@@ -1,5 +1,10 @@
 //! Garments of any number of triangles and panels, for benchmarks.
 
+use std::f32::consts::TAU;
+
+use amc_core::mesh::{Garment, Panel};
+use glam::{Vec2, Vec3};
+
 /// A binary glTF of so many primitives, each of so many waving sheets, side by side in the UV map; each sheet has `2 side^2`
 /// triangles.
 pub fn glb(primitives: usize, islands: usize, side: usize) -> Vec<u8> {
@@ -68,4 +73,37 @@ pub fn glb(primitives: usize, islands: usize, side: usize) -> Vec<u8> {
     glb.extend([bin.len(), 0x004e_4942].iter().flat_map(|&word| (word as u32).to_le_bytes()));
     glb.extend(bin);
     glb
+}
+
+/// So many waving panels side by side, of 2 x `cells`^2 triangles each, their UVs sheared a little.
+pub fn waving_panels(panels: u32, cells: u32) -> Garment {
+    let mut garment = Garment { has_uvs: true, ..Garment::default() };
+    for panel in 0..panels {
+        let (first, start) = (garment.positions.len() as u32, garment.triangles.len() as u32);
+        for row in 0..=cells {
+            for column in 0..=cells {
+                let p = Vec2::new(column as f32, row as f32) / cells as f32;
+                let (sin, cos) = (p.x * TAU * 3.0 + p.y + panel as f32).sin_cos();
+                let slope = Vec2::new(TAU * 3.0, 1.0) * (0.05 * cos);
+                garment.positions.push(Vec3::new(p.x + panel as f32 * 1.1, p.y, 0.05 * sin));
+                garment.normals.push((-slope).extend(1.0).normalize_or(Vec3::Z));
+                garment.uvs.push(Vec2::new(p.x + 0.1 * p.y * p.y, p.y));
+                if row < cells && column < cells {
+                    let k = first + row * (cells + 1) + column;
+                    let above = k + cells + 1;
+                    garment.triangles.extend([[k, k + 1, above + 1], [k, above + 1, above]]);
+                }
+            }
+        }
+        garment.panels.push(Panel {
+            id: panel.to_string(),
+            name: panel.to_string(),
+            triangles: start..garment.triangles.len() as u32,
+            takes_fabric: true,
+            area: 1.0,
+            flags: Default::default(),
+            pattern: Default::default(),
+        });
+    }
+    garment
 }
