@@ -124,7 +124,7 @@ fn in_this_process() -> ExitCode {
     let mut harness = window(folder.path());
     let is_never_held_up = opening(&mut harness, &path);
     let is_quick = frames(&mut harness) & turning_one(&mut harness);
-    let glb = large_garment::glb(PIECES, PIECES, 20);
+    let (path, glb) = (folder.path().join("pieces.glb"), large_garment::glb(PIECES, PIECES, 20));
     amc_core::file::save_bytes(&path, &glb).expect("the file is written");
     harness.state_mut().open(&path);
     settle(&mut harness, |_| {});

@@ -5,7 +5,7 @@ use amc_studio::studio::Studio;
 use eframe::egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 
-use super::directions::near;
+use super::directions::{grain, near, turned_shirt};
 use super::*;
 
 /// Runs a command by typing its name into the palette.
@@ -35,12 +35,8 @@ fn select_piece(harness: &mut Harness<'_, App>, panel: &str) {
 #[test]
 fn a_shirt_is_set_straight_combed_and_its_tech_sheet_exported_by_keys_alone() {
     let folder = tempfile::tempdir().unwrap();
-    let garment = std::path::absolute("../assets/garments/variants/shirt-turned.glb").unwrap();
-    let cut = Garment::new(mesh::read(&garment, Unit::Metre).unwrap()).unwrap();
-    let grain = |panel: &str| {
-        let panel = cut.panels.iter().find(|it| it.id == panel).unwrap();
-        panel.pattern.grain.unwrap().to_degrees()
-    };
+    let (garment, cut) = turned_shirt();
+    let grain = |panel: &str| grain(&cut, panel);
     let mut harness = window(Studio::new().open([garment]), folder.path());
     press(&mut harness, Modifiers::NONE, Key::Escape);
     let before = harness.state().document().project().clone();

@@ -1,5 +1,7 @@
 //! The tangent-field editor, as a designer uses it.
 
+use std::path::PathBuf;
+
 use amc_core::direction::comb::{Path as StrokePath, Stroke};
 use amc_core::mesh::{self, Garment, Unit};
 use amc_studio::studio::Studio;
@@ -188,6 +190,35 @@ fn a_stroke_is_drawn_on_the_garment_and_lies_in_its_flat_pattern() {
 }
 
 #[test]
+fn a_garment_without_a_flat_pattern_is_combed_in_space() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("bare.obj");
+    let mut text = "o cloth\n".to_owned();
+    for k in 0..11 * 11 {
+        text += &format!("v {} {} 0\n", (k % 11) as f32 * 0.1, (k / 11) as f32 * 0.1);
+    }
+    for k in (1..11 * 10).filter(|k| k % 11 != 0) {
+        text += &format!("f {} {} {} {}\n", k, k + 1, k + 12, k + 11);
+    }
+    amc_core::file::save_bytes(&file, text.as_bytes()).unwrap();
+    let mut harness = window(Studio::new().open([file]), folder.path());
+    click(&mut harness, "Close");
+    let plain = picture(&mut harness);
+    press(&mut harness, Modifiers::NONE, Key::B);
+    let middle = harness.get_by_label("Garment").rect().center();
+    drag(&mut harness, middle + vec2(-40.0, 30.0), middle + vec2(40.0, -30.0));
+    let project = harness.state().document().project();
+    let (_, choice) = project.panels.iter().find(|(_, choice)| choice.comb.is_some()).unwrap();
+    let stroke = &choice.comb.as_ref().unwrap().strokes[0];
+    let StrokePath::Space(points) = &stroke.path else { panic!("a stroke in space") };
+    let along = (points[points.len() - 1] - points[0]).truncate();
+    let degrees = along.to_angle().to_degrees();
+    assert!((degrees - (30.0_f32).atan2(40.0).to_degrees()).abs() < 3.0, "{degrees}");
+    press(&mut harness, Modifiers::NONE, Key::B);
+    assert_ne!(picture(&mut harness), plain);
+}
+
+#[test]
 fn an_edge_is_clicked_and_the_grain_laid_along_it() {
     let folder = tempfile::tempdir().unwrap();
     let mut harness = window(Studio::new(), folder.path());
@@ -271,15 +302,24 @@ fn two_points_make_a_line_and_a_piece_is_turned_on_the_screen_but_not_its_grain(
     near(&harness, "yoke", degrees(&harness, "back").unwrap() - 90.0);
 }
 
+/// A shirt whose pieces lie off the axes of its UVs: its file, and what is in it.
+pub(super) fn turned_shirt() -> (PathBuf, Garment) {
+    let file = std::path::absolute("../assets/garments/variants/shirt-turned.glb").unwrap();
+    let garment = Garment::new(mesh::read(&file, Unit::Metre).unwrap()).unwrap();
+    (file, garment)
+}
+
+/// The grain that a panel's file says, degrees.
+pub(super) fn grain(garment: &Garment, panel: &str) -> f32 {
+    let panel = garment.panels.iter().find(|it| it.id == panel).unwrap();
+    panel.pattern.grain.unwrap().to_degrees()
+}
+
 #[test]
 fn a_shirt_that_lies_off_its_grain_is_set_straight() {
     let folder = tempfile::tempdir().unwrap();
-    let garment = std::path::absolute("../assets/garments/variants/shirt-turned.glb").unwrap();
-    let cut = Garment::new(mesh::read(&garment, Unit::Metre).unwrap()).unwrap();
-    let grain = |panel: &str| {
-        let panel = cut.panels.iter().find(|it| it.id == panel).unwrap();
-        panel.pattern.grain.unwrap().to_degrees()
-    };
+    let (garment, cut) = turned_shirt();
+    let grain = |panel: &str| grain(&cut, panel);
     let mut harness = window(Studio::new().open([garment]), folder.path());
     // The back hangs straight down, so upright is its grain.
     select(&mut harness, "back");

@@ -245,9 +245,10 @@ fn assemble(mesh: &PanelMesh, demands: &Demands, symmetry: u32) -> (Vec<Complex>
         right[high] += turn * demands.fixed[low];
         right[low] += turn.conj() * demands.fixed[high];
     }
-    for vertex in 0..count {
-        if demands.fixed[vertex] != ZERO || !is_combed(vertex) {
-            (diagonal[vertex], right[vertex]) = (1.0, demands.fixed[vertex]);
+    for (vertex, (diagonal, right)) in diagonal.iter_mut().zip(&mut right).enumerate() {
+        let fixed = demands.fixed[vertex];
+        if fixed != ZERO || !is_combed(vertex) {
+            (*diagonal, *right) = (1.0, fixed);
         }
     }
     let mut values = Vec::with_capacity(edges.count() + count);

@@ -3,6 +3,8 @@
 use amc_core::direction::comb::Comb;
 use glam::{Mat3, Quat, Vec3};
 
+use crate::sheet::line::simplified_open;
+
 /// Where a stroke is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Grip {
@@ -30,31 +32,11 @@ pub(super) fn moved(points: &[Vec3], grip: Grip, by: Vec3) -> Vec<Vec3> {
     points.iter().map(|&point| fixed + turn * (point - fixed)).collect()
 }
 
-/// A line with fewer points, none of those left out farther from it than `tolerance` (Ramer 1972; Douglas and Peucker 1973),
-/// and never more than a stroke may have.
-pub(super) fn simplified(points: &[Vec3], tolerance: f32) -> Vec<Vec3> {
-    let mut kept = vec![false; points.len()];
-    let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
-    (kept[0], kept[last]) = (true, true);
-    let mut open = vec![(0, last)];
-    while let Some((from, to)) = open.pop() {
-        let off = |k: &usize| to_segment(points[from], points[to], points[*k]);
-        let farthest = (from + 1..to).max_by(|a, b| off(a).total_cmp(&off(b)));
-        if let Some(k) = farthest.filter(|k| off(k) > tolerance) {
-            kept[k] = true;
-            open.extend([(from, k), (k, to)]);
-        }
-    }
-    let mut line: Vec<Vec3> =
-        points.iter().zip(kept).filter(|(_, kept)| *kept).map(|(point, _)| *point).collect();
+/// The line that a hand made, with no more points than it needs to be within `tolerance`, and never more than a stroke may have.
+pub(super) fn drawn(points: &[Vec3], tolerance: f32) -> Vec<Vec3> {
+    let mut line = simplified_open(points, tolerance);
     line.truncate(Comb::MOST_POINTS);
     line
-}
-
-fn to_segment(a: Vec3, b: Vec3, at: Vec3) -> f32 {
-    let along = b - a;
-    let share = ((at - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-    at.distance(if share.is_finite() { a + along * share } else { a })
 }
 
 #[cfg(test)]
@@ -80,11 +62,11 @@ mod tests {
     #[test]
     fn a_straight_line_needs_two_points_and_a_corner_stays() {
         let straight: Vec<Vec3> = (0..50).map(|k| Vec3::X * k as f32).collect();
-        assert_eq!(simplified(&straight, 1e-3), [straight[0], straight[49]]);
+        assert_eq!(drawn(&straight, 1e-3), [straight[0], straight[49]]);
         let corner = [Vec3::ZERO, Vec3::new(1.0, 0.01, 0.0), Vec3::new(1.0, 1.0, 0.0)];
-        assert_eq!(simplified(&corner, 1e-3), corner);
-        assert!(simplified(&[], 1.0).is_empty());
+        assert_eq!(drawn(&corner, 1e-3), corner);
+        assert!(drawn(&[], 1.0).is_empty());
         let wild: Vec<Vec3> = (0..9000).map(|k| Vec3::new(k as f32, (k % 2) as f32, 0.0)).collect();
-        assert_eq!(simplified(&wild, 0.1).len(), Comb::MOST_POINTS);
+        assert_eq!(drawn(&wild, 0.1).len(), Comb::MOST_POINTS);
     }
 }

@@ -3,13 +3,13 @@
 use amc_core::direction::comb::{Comb, Elsewhere, Hold, Path, Stroke};
 use amc_core::mesh::{Garment, SurfacePlace};
 use egui::{Pos2, Response};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use studio_plugin::Context;
 use studio_plugin::document::Gesture;
 
-use super::shape::{Grip, moved, simplified};
+use super::shape::{Grip, drawn, moved};
 use super::{Chosen, comb_of, is_free, panel_of, point, points, set_points, submit};
-use crate::sheet::Sheet;
+use crate::sheet::{Sheet, line};
 use crate::texts::comb as texts;
 
 /// How near the pointer must be to a stroke to take hold of it, points.
@@ -166,9 +166,9 @@ impl Stylus {
 }
 
 /// A stroke through points that a hand made.
-fn stroke(sheet: &Sheet, panel: usize, drawn: &[Vec3], hold: Hold, radius: f32) -> Stroke {
-    let length: f32 = drawn.windows(2).map(|ends| ends[0].distance(ends[1])).sum();
-    let line = simplified(drawn, TOLERANCE * length);
+fn stroke(sheet: &Sheet, panel: usize, hand: &[Vec3], hold: Hold, radius: f32) -> Stroke {
+    let length: f32 = hand.windows(2).map(|ends| ends[0].distance(ends[1])).sum();
+    let line = drawn(hand, TOLERANCE * length);
     let path = match super::is_flat(sheet, panel) {
         true => Path::Pattern(line.into_iter().map(Vec3::truncate).collect()),
         false => Path::Space(line),
@@ -188,9 +188,9 @@ fn near(at: Pos2, finder: &impl Finder, garment: &Garment, studio: &Context<'_>)
     let panel = panel_of(garment, &place)?;
     let comb = studio.document.project().comb(&garment.panels[panel].id)?;
     let lines = comb.strokes.iter().map(|stroke| finder.line(panel, stroke));
-    let distance = |line: &[Pos2]| {
-        line.windows(2).map(|ends| to_segment(ends[0], ends[1], at)).fold(f32::INFINITY, f32::min)
-    };
+    let flat = |at: Pos2| Vec2::new(at.x, at.y);
+    let distance =
+        |line: &[Pos2]| line::distance(&line.iter().map(|&at| flat(at)).collect::<Vec<_>>(), flat(at));
     let (stroke, line, off) = lines
         .enumerate()
         .map(|(stroke, line)| {
@@ -208,10 +208,4 @@ fn near(at: Pos2, finder: &impl Finder, garment: &Garment, studio: &Context<'_>)
         _ => Grip::Middle,
     };
     Some((Chosen { panel, stroke }, grip))
-}
-
-fn to_segment(a: Pos2, b: Pos2, at: Pos2) -> f32 {
-    let along = b - a;
-    let share = ((at - a).dot(along) / along.length_sq()).clamp(0.0, 1.0);
-    at.distance(if share.is_finite() { a + along * share } else { a })
 }

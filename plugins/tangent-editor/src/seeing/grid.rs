@@ -39,12 +39,12 @@ impl Grid {
     }
 
     /// From metres to texels, x to the right and y down: centres are at halves.
-    pub(super) fn to_texels(&self, at: Vec2) -> Vec2 {
+    pub(super) fn to_texels(self, at: Vec2) -> Vec2 {
         Vec2::new(at.x - self.corner.x, self.corner.y - at.y) / self.texel
     }
 
     /// The inverse of [`Grid::to_texels`].
-    pub(super) fn to_metres(&self, at: Vec2) -> Vec2 {
+    pub(super) fn to_metres(self, at: Vec2) -> Vec2 {
         self.corner + Vec2::new(at.x, -at.y) * self.texel
     }
 
@@ -56,7 +56,7 @@ impl Grid {
     }
 
     /// From metres to a picture of these texels, as [`amc_core::render::LaidPrint`] has it.
-    pub(super) fn to_picture(&self) -> Affine2 {
+    pub(super) fn to_picture(self) -> Affine2 {
         let size = Vec2::new(self.width as f32, self.height as f32) * self.texel;
         let flip = Mat2::from_diagonal(Vec2::new(1.0, -1.0) / size);
         Affine2::from_mat2(flip) * Affine2::from_translation(-self.corner)

@@ -167,11 +167,14 @@ fn laid_flat(garment: &Garment) -> Vec<Option<FlatPanel>> {
     (0..garment.panels.len()).into_par_iter().map(flat).collect()
 }
 
+/// A value for each of a panel's triangles, with the area, and how they are spread.
+type PanelHeat = (Vec<Option<(f32, f32)>>, Arc<Spread>);
+
 /// The values of a heat map.
 #[derive(Debug, Default)]
 struct Heat {
-    /// For each panel: a value for each of its triangles, with the area, and how they are spread.
-    panels: Vec<Option<(Vec<Option<(f32, f32)>>, Arc<Spread>)>>,
+    /// One for each panel.
+    panels: Vec<Option<PanelHeat>>,
     scale: Option<ColorScale>,
 }
 

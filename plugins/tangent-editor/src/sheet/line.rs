@@ -1,6 +1,6 @@
 //! Outlines as they are drawn and picked.
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 /// A turn of the outline by this much is a corner, radians.
 const CORNER: f32 = 0.6;
@@ -28,14 +28,32 @@ pub(crate) fn distance(line: &[Vec2], at: Vec2) -> f32 {
     line.windows(2).map(|ends| to_segment(ends[0], ends[1], at)).fold(f32::INFINITY, f32::min)
 }
 
-fn to_segment(a: Vec2, b: Vec2, at: Vec2) -> f32 {
+fn to_segment<V: Place>(a: V, b: V, at: V) -> f32 {
+    let [a, b, at] = [a, b, at].map(Place::in_space);
     let along = b - a;
     let share = ((at - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
     at.distance(if share.is_finite() { a + along * share } else { a })
 }
 
-/// A closed line with fewer points, none of those left out farther from it than `tolerance` (Ramer 1972; Douglas and Peucker
-/// 1973).
+/// A point of a line, flat or in space.
+pub(crate) trait Place: Copy {
+    /// What is flat lies in the plane z = 0.
+    fn in_space(self) -> Vec3;
+}
+
+impl Place for Vec2 {
+    fn in_space(self) -> Vec3 {
+        self.extend(0.0)
+    }
+}
+
+impl Place for Vec3 {
+    fn in_space(self) -> Vec3 {
+        self
+    }
+}
+
+/// A closed line with fewer points, none of those left out farther from it than `tolerance`.
 pub(crate) fn simplified(line: &[Vec2], tolerance: f32) -> Vec<Vec2> {
     let Some(&first) = line.first() else { return Vec::new() };
     let far = |k: &usize| line[*k].distance_squared(first);
@@ -43,12 +61,23 @@ pub(crate) fn simplified(line: &[Vec2], tolerance: f32) -> Vec<Vec2> {
         return line.to_vec();
     };
     // A closed line is two open ones.
-    let point = |k: usize| line[k % line.len()];
+    let (there, mut back) = (&line[..=opposite], line[opposite..].to_vec());
+    back.push(first);
+    let mut kept = simplified_open(there, tolerance);
+    kept.pop();
+    kept.extend(simplified_open(&back, tolerance));
+    kept.pop();
+    kept
+}
+
+/// An open line with fewer points, none of those left out farther from it than `tolerance` (Ramer 1972; Douglas and Peucker 1973).
+pub(crate) fn simplified_open<V: Place>(line: &[V], tolerance: f32) -> Vec<V> {
     let mut kept = vec![false; line.len()];
-    (kept[0], kept[opposite]) = (true, true);
-    let mut open = vec![(0, opposite), (opposite, line.len())];
+    let Some(last) = line.len().checked_sub(1) else { return Vec::new() };
+    (kept[0], kept[last]) = (true, true);
+    let mut open = vec![(0, last)];
     while let Some((from, to)) = open.pop() {
-        let off = |k: &usize| to_segment(point(from), point(to), point(*k));
+        let off = |k: &usize| to_segment(line[from], line[to], line[*k]);
         let farthest = (from + 1..to).max_by(|a, b| off(a).total_cmp(&off(b)));
         if let Some(k) = farthest.filter(|k| off(k) > tolerance) {
             kept[k] = true;

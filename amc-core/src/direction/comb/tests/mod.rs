@@ -21,7 +21,7 @@ fn grid(cells: u32, to_space: impl Fn(Vec2) -> Vec3) -> Mesh {
         for column in 0..=cells {
             let shake =
                 Vec2::new(((column * 7 + row * 13) % 5) as f32, ((column * 11 + row * 3) % 7) as f32) * 0.05;
-            let inner = |k: u32| if k % cells == 0 { 0.0 } else { 1.0 };
+            let inner = |k: u32| if k.is_multiple_of(cells) { 0.0 } else { 1.0 };
             let p = Vec2::new(column as f32, row as f32) + shake * Vec2::new(inner(column), inner(row));
             uvs.push(p / cells as f32);
             if row < cells && column < cells {
