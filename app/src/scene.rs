@@ -14,7 +14,7 @@ mod staged;
 pub(crate) use fabric::Fabrics;
 #[cfg(feature = "window")]
 pub(crate) use fabric::load_fabric;
-pub(crate) use garment::load_garment;
+pub(crate) use garment::{load_arranged, load_garment};
 pub(crate) use look::{PanelLook, StartingLook, combed_directions, directions, panel_looks};
 pub(crate) use open::{Scene, open_scene};
 pub(crate) use panel_option::PanelOption;

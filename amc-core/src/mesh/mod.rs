@@ -2,8 +2,10 @@
 //!
 //! A [`Mesh`] is what a file or a shape gives; [`Garment`] is that mesh cut into panels, ready for directions and drawing.
 //! Reading: [`read()`], or [`obj::parse`] and [`gltf::parse`] on bytes in memory. A reader fills a draft, one
-//! common check makes a [`Mesh`] of it. Panels: islands of the UV map, their vertices parted, their figures measured.
+//! common check makes a [`Mesh`] of it. Panels: islands of the UV map, their vertices parted, their figures measured;
+//! an [`Arrangement`] merges, splits and renames them.
 
+mod arrangement;
 mod check;
 mod cloth_normals;
 mod distortion;
@@ -35,6 +37,7 @@ mod triangulate;
 mod unit;
 pub(crate) mod weld;
 
+pub use arrangement::{Arrangement, Rearrangement};
 pub use cloth_normals::cloth_normals;
 pub use distortion::{Distortion, Percentiles};
 pub use flat_locator::{FlatLocator, SurfacePlace};

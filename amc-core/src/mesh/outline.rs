@@ -29,7 +29,7 @@ impl Garment {
     }
 
     /// Each vertex of `triangles`, and the first of those with the same position and UV; by vertex.
-    fn welded(&self, triangles: &[[u32; 3]]) -> Vec<(u32, u32)> {
+    pub(super) fn welded(&self, triangles: &[[u32; 3]]) -> Vec<(u32, u32)> {
         let mut vertices = triangles.as_flattened().to_vec();
         vertices.sort_unstable();
         vertices.dedup();

@@ -119,6 +119,8 @@ fn project(file: &Path) -> Result<Value> {
         "garment": asset(&project.garment),
         "fabrics": project.fabrics.iter().map(fabric).collect::<Vec<_>>(),
         "panels": project.panels.iter().map(panel).collect::<Vec<_>>(),
+        "arrangement": project.arrangement,
+        "groups": project.groups,
         "view": project.view,
         "notes": project.notes,
         "notices": notices,

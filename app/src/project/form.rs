@@ -1,13 +1,13 @@
 //! How a project looks in its file, version 1. Directions are in degrees there, as people read and write it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
 
 use amc_core::Result;
 use amc_core::direction::comb::Comb;
 use amc_core::direction::{Direction, Source};
-use amc_core::mesh::Unit;
+use amc_core::mesh::{Arrangement, Rearrangement, Unit};
 use amc_core::render::Laying;
 use glam::Vec2;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -16,7 +16,8 @@ use studio_plugin::document::{Asset, FabricId, FabricInUse, PanelChoice, PanelPr
 
 use super::paths;
 
-/// A `.amcproj`. Every key is always written; any but the version may be left out.
+/// A `.amcproj`. Every key is always written, but for those of panels' names, groups and changes where there are none; any but
+/// the version may be left out.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(default)]
 pub(super) struct ProjectForm {
@@ -25,6 +26,13 @@ pub(super) struct ProjectForm {
     unit: Unit,
     fabrics: Vec<FabricForm>,
     panels: BTreeMap<String, PanelForm>,
+    /// What the garment's panels were merged and split to, one after the other.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    changes: Vec<Rearrangement>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    names: BTreeMap<String, String>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    groups: BTreeMap<String, BTreeSet<String>>,
     plugins: BTreeMap<String, Value>,
     view: ViewSettings,
     notes: String,
@@ -44,6 +52,9 @@ impl Default for ProjectForm {
             unit: Unit::Metre,
             fabrics: Vec::new(),
             panels: BTreeMap::new(),
+            changes: Vec::new(),
+            names: BTreeMap::new(),
+            groups: BTreeMap::new(),
             plugins,
             view,
             notes,
@@ -136,6 +147,9 @@ impl ProjectForm {
             unit: project.unit,
             fabrics: fabrics.collect::<Result<_>>()?,
             panels: panels.collect::<Result<_>>()?,
+            changes: project.arrangement.changes.clone(),
+            names: project.arrangement.names.clone(),
+            groups: project.groups.clone(),
             plugins: project.plugins.clone(),
             view: project.view.clone(),
             notes: project.notes.clone(),
@@ -160,6 +174,8 @@ impl ProjectForm {
             unit: self.unit,
             fabrics: fabrics.collect(),
             panels: panels.collect(),
+            arrangement: Arrangement { changes: self.changes, names: self.names },
+            groups: self.groups,
             plugins: self.plugins,
             view: self.view,
             notes: self.notes,

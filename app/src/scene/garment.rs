@@ -4,8 +4,9 @@ use std::path::Path;
 
 use amc_core::mesh::{self, Garment, Unit};
 use amc_core::{Result, shape};
+use studio_plugin::document::Project;
 
-use super::bundled;
+use super::{asset_path, bundled};
 
 /// How a scene names a bundled garment.
 const GARMENT_PREFIX: &str = "garment:";
@@ -22,4 +23,12 @@ pub(crate) fn load_garment(scene: &Path, unit: Unit) -> Result<Garment> {
         (None, None) => mesh::read(scene, unit)?,
     };
     Garment::new(mesh).map_err(|error| error.in_file(scene))
+}
+
+/// The garment of `project` as its panels were merged, split and renamed; what did not fit is among its notices.
+pub(crate) fn load_arranged(project: &Project) -> Result<Garment> {
+    let garment = load_garment(&asset_path(&project.garment), project.unit)?;
+    let (mut garment, faults) = garment.arranged(&project.arrangement);
+    garment.notices.extend(faults);
+    Ok(garment)
 }

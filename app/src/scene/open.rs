@@ -6,7 +6,7 @@ use amc_core::mesh::{Garment, Unit};
 use amc_core::{Progress, Result};
 use studio_plugin::document::Project;
 
-use super::{asset_path, is_project, load_garment};
+use super::{is_project, load_arranged, load_garment};
 use crate::project::{self, System};
 
 /// A garment, and what a project says of it where it comes from one.
@@ -28,7 +28,7 @@ pub(crate) fn open_scene(named: &Path, unit: Unit, progress: &Progress<'_>) -> R
         return Ok(Scene { notices: garment.notices.clone(), garment, project: None });
     }
     let opened = project::open(&System, named, progress)?;
-    let garment = load_garment(&asset_path(&opened.project.garment), opened.project.unit)?;
+    let garment = load_arranged(&opened.project)?;
     let notices = opened.notices.into_iter().chain(garment.notices.iter().cloned()).collect();
     Ok(Scene { garment, project: Some(opened.project), notices })
 }

@@ -19,6 +19,7 @@ use super::files::{self, Dialog, Opened, Purpose};
 use super::help::Help;
 use super::menu::Menu;
 use super::milestones::Milestones;
+use super::other_garment::OtherGarment;
 use super::palette::Palette;
 use super::settings::{self, Preferences};
 use super::settings_page::SettingsPage;
@@ -48,6 +49,8 @@ pub struct App {
     /// What was chosen on the cards of the first steps in this frame.
     chosen_step: Option<Chosen>,
     dialog: Option<Dialog>,
+    /// A garment that is to take the place of the one at hand.
+    other_garment: Option<OtherGarment>,
     /// Asked before the window closes with changes.
     leaving: bool,
     /// Changes are to be thrown away: the window may close.
@@ -127,6 +130,7 @@ impl App {
             tool: None,
             chosen_step: None,
             dialog: None,
+            other_garment: None,
             leaving: false,
             discard: false,
             leaving_saved: false,
@@ -146,7 +150,8 @@ impl App {
 
     /// Whether all that the document asks for is drawn, and nothing runs.
     pub fn is_settled(&self) -> bool {
-        self.jobs.is_idle() && !self.desk.is_busy() && !self.stager.is_busy()
+        let is_read = self.other_garment.as_ref().is_none_or(|garment| !garment.is_being_read());
+        self.jobs.is_idle() && !self.desk.is_busy() && !self.stager.is_busy() && is_read
     }
 
     /// Takes in what has happened since the last frame; gives the commands there are.
@@ -155,6 +160,7 @@ impl App {
         self.drops(ui);
         self.with_context(|registry, studio| registry.each(studio, |plugin, studio| plugin.update(studio)));
         self.desk.update(&mut self.notices);
+        self.read_garment();
         self.stager.update(self.desk.document.project(), &mut self.jobs, &mut self.notices);
         self.stager.cover(self.registry.cover(&mut self.notices));
         if let Some(garment) = &self.stager.stage.garment {
@@ -185,11 +191,7 @@ impl App {
     pub fn open(&mut self, file: &Path) {
         match files::opened(file) {
             Opened::Project(path) => self.desk.open(&path, &mut self.jobs),
-            Opened::Edit(edit) => {
-                if let Err(error) = self.desk.document.submit(edit, None) {
-                    self.notices.failed(error);
-                }
-            }
+            Opened::Garment(asset) => self.open_garment(asset),
             Opened::Import(path) => self.import(&path),
         }
     }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use amc_core::Result;
 use eframe::egui;
-use studio_plugin::document::{Asset, Edit, Project};
+use studio_plugin::document::{Asset, Project};
 use studio_plugin::{Ask, Jobs};
 #[cfg(feature = "dialogs")]
 use studio_plugin::{FileKind, Job};
@@ -133,8 +133,8 @@ fn of_kinds(dialog: rfd::FileDialog, kinds: &[FileKind]) -> rfd::FileDialog {
 pub(super) enum Opened {
     /// It takes the place of the document.
     Project(PathBuf),
-    /// One edit.
-    Edit(Edit),
+    /// The project's garment from then on.
+    Garment(Asset),
     /// It is for a plugin that takes in such files.
     Import(PathBuf),
 }
@@ -143,7 +143,7 @@ pub(super) enum Opened {
 pub(super) fn opened(file: &Path) -> Opened {
     match kind(file) {
         Some(Kind::Project) => Opened::Project(file.to_owned()),
-        Some(Kind::Garment) => Opened::Edit(Edit::SetGarment(asset(file))),
+        Some(Kind::Garment) => Opened::Garment(asset(file)),
         Some(Kind::Fabric) | None => Opened::Import(file.to_owned()),
     }
 }

@@ -9,6 +9,7 @@ mod files;
 mod help;
 mod menu;
 mod milestones;
+mod other_garment;
 mod palette;
 mod panes;
 mod path_field;

@@ -90,3 +90,29 @@ pub(super) fn missing(ui: &egui::Ui, files: &[Missing]) -> Option<OfMissing> {
 fn shown(path: &Path) -> String {
     path.display().to_string()
 }
+
+/// Asks whether a garment is to be opened that has not all panels for which something was chosen.
+pub(super) fn other_garment(ui: &egui::Ui, name: &str, lost: &[String]) -> Option<bool> {
+    let mut answer = None;
+    let modal = egui::Modal::new(egui::Id::unique("other-garment")).show(ui, |ui| {
+        ui.set_max_width(140.0 * STEP);
+        ui.heading(words::other_garment(name));
+        ui.label(words::HAS_NO_PANEL_FOR);
+        ui.add_space(STEP);
+        egui::ScrollArea::vertical().max_height(60.0 * STEP).show(ui, |ui| {
+            lost.iter().for_each(|lost| drop(ui.label(lost)));
+        });
+        ui.add_space(STEP);
+        ui.label(words::COMES_BACK);
+        ui.add_space(2.0 * STEP);
+        ui.horizontal(|ui| {
+            if ui.button(words::OPEN_ANYWAY).clicked() {
+                answer = Some(true);
+            }
+            if ui.button(texts::CANCEL).clicked() {
+                answer = Some(false);
+            }
+        });
+    });
+    if modal.should_close() { answer.or(Some(false)) } else { answer }
+}

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use amc_core::Result;
 use amc_core::amc::Amc;
 use amc_core::direction::{Direction, Fineness, KeptTangents};
-use amc_core::mesh::{Garment, Picker, Unit};
+use amc_core::mesh::{Arrangement, Garment, Picker, Rearrangement, Unit};
 use amc_core::render::{Bounds, Cloth, Drawing, Print};
 use eframe::egui::ColorImage;
 use studio_plugin::document::{Asset, FabricId, Project};
@@ -33,13 +33,27 @@ pub(super) struct Stager {
     pub(super) compared: Drawn,
     /// What is drawn, with what lies over it.
     covered: Option<Covered>,
-    garment: Loading<(Asset, Unit), Loaded>,
+    garment: Loading<Wanted, Loaded>,
+    /// The garment as its file has it, so that panels are arranged without reading it again.
+    as_cut: Option<AsCut>,
     /// What darkens the folds takes longest, and comes when the garment is seen already.
     shaded: Option<Job<Arc<Drawing>>>,
     fabrics: BTreeMap<FabricId, Loading<Asset, (Arc<Amc>, ColorImage)>>,
     /// Those that were begun; none: done.
     prints: HashMap<Asset, Option<Job<Arc<Print>>>>,
     loaded: Option<Loaded>,
+}
+
+/// What a garment on stage is made of: where it is, its unit, and what became of its panels. Their names are no part of it.
+type Wanted = ((Asset, Unit), Vec<Rearrangement>);
+
+/// A garment as its file has it.
+#[derive(Debug, Clone)]
+struct AsCut {
+    of: (Asset, Unit),
+    garment: Arc<Garment>,
+    /// Whether what is odd about it was said.
+    is_told: bool,
 }
 
 /// A drawing under a cover.
@@ -89,7 +103,10 @@ impl<K, T> Default for Loading<K, T> {
 /// A garment with what is reckoned from it alone.
 #[derive(Debug, Clone)]
 struct Loaded {
+    as_cut: Arc<Garment>,
     garment: Arc<Garment>,
+    /// What there is to say of it.
+    notices: Vec<String>,
     /// All panels plain: what the drawings of it share.
     plain: Arc<Drawing>,
     picker: Arc<Picker>,
@@ -125,6 +142,11 @@ impl Stager {
         self.update_prints(project, jobs, notices);
         self.update_drawings(project, jobs, notices);
         self.stage.directions.clone_from(&self.drawn.directions);
+    }
+
+    /// Takes in a garment that was read already, for when the document asks for it.
+    pub(super) fn offer(&mut self, asset: Asset, unit: Unit, garment: Arc<Garment>) {
+        self.as_cut = Some(AsCut { of: (asset, unit), garment, is_told: false });
     }
 
     /// Lays a cover over what is drawn from now on; none: nothing lies over it.
@@ -166,11 +188,11 @@ impl Stager {
     }
 
     fn update_garment(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
-        let wanted = (project.garment.clone(), project.unit);
+        let wanted = ((project.garment.clone(), project.unit), project.arrangement.changes.clone());
         if self.garment.wanted.as_ref() != Some(&wanted) {
-            let (asset, unit) = wanted.clone();
-            self.garment.wanted = Some(wanted);
-            let load = move |_: &amc_core::Progress<'_>| Loaded::new(&asset, unit);
+            let known = self.as_cut.clone().filter(|known| known.of == wanted.0);
+            self.garment.wanted = Some(wanted.clone());
+            let load = move |_: &amc_core::Progress<'_>| Loaded::new(wanted, known);
             self.garment.job = Some(jobs.start(words::opening(project.garment.name()), load));
         }
         if let Some(result) = self.garment.job.as_ref().and_then(Job::poll) {
@@ -178,12 +200,10 @@ impl Stager {
             match result {
                 Ok(loaded) => {
                     self.shaded = Some(loaded.start_shading(&project.garment, jobs));
-                    for notice in &loaded.garment.notices {
-                        notices.note(notice);
-                    }
-                    if let Some(notice) = unlikely_size(&loaded.garment) {
-                        notices.note(notice);
-                    }
+                    loaded.notices.iter().for_each(|notice| notices.note(notice));
+                    let of = self.garment.wanted.as_ref().map(|wanted| wanted.0.clone());
+                    let garment = Arc::clone(&loaded.as_cut);
+                    self.as_cut = of.map(|of| AsCut { of, garment, is_told: true });
                     self.stage.garment = Some(Arc::clone(&loaded.garment));
                     self.stage.pieces.clone_from(&loaded.pieces);
                     self.loaded = Some(loaded);
@@ -360,15 +380,32 @@ impl Drawn {
 }
 
 impl Loaded {
-    fn new(asset: &Asset, unit: Unit) -> Result<Self> {
-        let garment = load_garment(&asset_path(asset), unit)?;
+    /// `known`: the garment was read already.
+    fn new(((asset, unit), changes): Wanted, known: Option<AsCut>) -> Result<Self> {
+        let is_told = known.as_ref().is_some_and(|known| known.is_told);
+        let as_cut = match known {
+            Some(known) => known.garment,
+            None => Arc::new(load_garment(&asset_path(&asset), unit)?),
+        };
+        let mut notices = Vec::new();
+        if !is_told {
+            notices.extend(as_cut.notices.iter().cloned().chain(unlikely_size(&as_cut)));
+        }
+        let garment = match changes.is_empty() {
+            true => Arc::clone(&as_cut),
+            false => {
+                let arrangement = Arrangement { changes, ..Arrangement::default() };
+                let (arranged, faults) = Garment::clone(&as_cut).arranged(&arrangement);
+                notices.extend(faults);
+                Arc::new(arranged)
+            }
+        };
         let tangents = garment.normals.clone();
         let plain = Drawing::new(&garment, tangents, None, Vec::new(), |_| Cloth::Plain)?;
         let picker = Picker::new(&plain)?;
         let piece = |panel| Arc::new(thumbnail::piece(&garment, panel));
         let pieces = garment.panels.iter().map(piece).collect();
-        let (garment, plain) = (Arc::new(garment), Arc::new(plain));
-        Ok(Self { garment, plain, picker: Arc::new(picker), pieces })
+        Ok(Self { as_cut, garment, notices, plain: Arc::new(plain), picker: Arc::new(picker), pieces })
     }
 
     /// The plain drawing with the occlusion of every vertex.

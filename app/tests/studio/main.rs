@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod arranging;
 mod by_keyboard;
 mod directions;
 mod export;

@@ -14,6 +14,7 @@ use crate::exchange;
 use crate::grain::{self, align, partners};
 use crate::pattern::PickedLine;
 use crate::sheet::Sheet;
+use crate::splitting;
 use crate::texts::{self, comb as comb_texts};
 
 const fn command(id: &'static str, name: &'static str, tooltip: &'static str) -> Command {
@@ -57,6 +58,9 @@ pub(crate) const COMMANDS: &[Command] = &[
     command("lie-left", texts::LIE_LEFT, texts::LIE_TIP),
     command("lie-right", texts::LIE_RIGHT, texts::LIE_TIP),
     command("lie-drawn", texts::LIE_DRAWN, texts::LIE_TIP),
+    command("split-picked", texts::SPLIT_PICKED, texts::SPLIT_PICKED_TIP),
+    command("split-along", texts::SPLIT_ALONG, texts::SPLIT_ALONG_TIP),
+    command("split-across", texts::SPLIT_ACROSS, texts::SPLIT_ALONG_TIP),
     command("save-sheet", texts::SAVE, texts::SAVE_TIP),
     command(exchange::IMPORT, texts::IMPORT, texts::IMPORT_TIP),
     command(exchange::EXPORT, texts::EXPORT, texts::EXPORT_TIP),
@@ -74,6 +78,9 @@ struct Copied {
     off_straight: f32,
 }
 
+/// The tool that splits panels.
+pub(crate) const SPLIT_TOOL: Command = command(splitting::TOOL, texts::SPLIT, texts::SPLIT_TIP);
+
 /// What commands take from earlier ones.
 #[derive(Debug, Default)]
 pub(crate) struct Given {
@@ -87,8 +94,12 @@ pub(crate) fn can_run(id: &str, sheet: &Sheet, given: &Given, studio: &Context<'
     let panels = || grain::picked(&sheet.garment, studio);
     match id {
         "paste" | "paste-mirrored" | "paste-relative" => given.copied.is_some(),
-        "align-edge" | "comb-edge" => given.picked.is_some(),
+        "align-edge" | "comb-edge" | "split-picked" => given.picked.is_some(),
         "copy" => !studio.selection.panels.is_empty(),
+        "split-along" | "split-across" => {
+            matches!(panels()[..], [panel] if sheet.piece(panel).is_some())
+                && studio.selection.panels.len() == 1
+        }
         "mirror" => panels().iter().any(|&panel| partners::partner(&sheet.garment, panel).is_some()),
         "align-partner" => {
             panels().iter().any(|&panel| !sheet.garment.panels[panel].pattern.seams.is_empty())
@@ -165,6 +176,16 @@ pub(crate) fn run(id: &str, sheet: &Sheet, given: &mut Given, studio: &mut Conte
             }
         }
         "mirror" => mirror(&panels, sheet, studio),
+        "split-picked" => {
+            if let Some(picked) = &given.picked {
+                splitting::along(sheet, picked, studio);
+            }
+        }
+        "split-along" | "split-across" => {
+            if let [panel] = panels[..] {
+                splitting::through_middle(sheet, panel, id == "split-across", studio);
+            }
+        }
         "reset" => {
             let panels = panels.iter().map(|&panel| garment.panels[panel].id.clone()).collect();
             studio.submit(Edit::SetDirection { panels, direction: None });

@@ -20,6 +20,7 @@ use crate::grain_pane::GrainPane;
 use crate::pattern::PatternPane;
 use crate::seeing_view::SeeingView;
 use crate::sheet::Sheet;
+use crate::splitting::{self, Cutter};
 use crate::tech_sheet::{self, Said};
 use crate::{overlay, texts};
 
@@ -32,6 +33,7 @@ pub struct TangentEditor {
     grain: GrainPane,
     comb: CombPane,
     stylus: Stylus,
+    cutter: Cutter,
     seeing: SeeingView,
     given: Given,
     /// An arrow that is dragged on the garment.
@@ -58,13 +60,16 @@ impl Plugin for TangentEditor {
     }
 
     fn tools(&self) -> Vec<Command> {
-        vec![commands::COMB_TOOL]
+        vec![commands::COMB_TOOL, commands::SPLIT_TOOL]
     }
 
-    fn use_tool(&mut self, _tool: &str, hand: &Hand<'_>, studio: &mut Context<'_>) {
+    fn use_tool(&mut self, tool: &str, hand: &Hand<'_>, studio: &mut Context<'_>) {
         if let Some(sheet) = &self.sheet {
             let finder = overlay::OnGarment { view: &hand.viewport, sheet };
-            self.stylus.use_in(hand.response, &finder, sheet, studio);
+            match tool {
+                splitting::TOOL => self.cutter.use_in(hand.response, &finder, sheet, studio),
+                _ => self.stylus.use_in(hand.response, &finder, sheet, studio),
+            }
         }
     }
 
@@ -96,8 +101,10 @@ impl Plugin for TangentEditor {
         if what == exchange::IMPORT {
             return self.exchange.read(file, studio);
         }
-        let Some(garment) = studio.stage.garment.clone() else { return };
         let project = studio.document.project();
+        let Some(garment) = studio.stage.garment.as_ref().map(|garment| project.named(garment)) else {
+            return;
+        };
         let said = match said(project, &garment) {
             Ok(said) => said,
             Err(error) => return studio.notices.failed(error),
@@ -182,7 +189,7 @@ impl Plugin for TangentEditor {
         } else if pane == "pattern" {
             self.seeing.ask(studio);
             let marked = self.under_pointer.1;
-            let given = (&mut self.given.picked, &mut self.stylus, &mut self.seeing);
+            let given = (&mut self.given.picked, &mut self.stylus, &mut self.cutter, &mut self.seeing);
             self.under_pointer.0 = self.pattern.show(ui, sheet, given, marked, studio);
         } else if let Some(clicked) = self.grain.show(ui, sheet, &self.given, studio) {
             self.run(clicked, studio);

@@ -112,7 +112,7 @@ impl Exchange {
     pub(crate) fn read(&mut self, file: &Path, studio: &mut Context<'_>) {
         let Some(garment) = studio.stage.garment.clone() else { return };
         let now = directions(&garment, studio.document.project());
-        let (path, of) = (file.to_owned(), Arc::clone(&garment));
+        let (path, of) = (file.to_owned(), studio.document.project().named(&garment));
         let read = move |progress: &Progress<'_>| import::read(&of, &now, &path, progress);
         let job = studio.jobs.start(texts::reading(file.display()), read);
         let name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy().into_owned();

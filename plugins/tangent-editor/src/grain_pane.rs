@@ -211,6 +211,6 @@ fn said(ui: &mut Ui, sheet: &Sheet, panels: &[usize], studio: &mut Context<'_>) 
     if let [panel] = partnered.as_slice()
         && let Some(partner) = partners::partner(garment, *panel)
     {
-        ui.weak(texts::partner(&garment.panels[partner].name));
+        ui.weak(texts::partner(studio.document.project().panel_name(&garment.panels[partner])));
     }
 }

@@ -28,6 +28,8 @@ pub mod seeing;
 #[cfg(feature = "window")]
 mod seeing_view;
 mod sheet;
+#[cfg(feature = "window")]
+mod splitting;
 pub mod tech_sheet;
 mod texts;
 #[cfg(feature = "window")]

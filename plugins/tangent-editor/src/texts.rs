@@ -68,6 +68,18 @@ pub(crate) const AXIS_TIP: &str = "As the panel hangs on the body, in the mean o
 pub(crate) const PARTNER: &str = "Align the grain to the seam partner";
 pub(crate) const PARTNER_SHORT: &str = "Seam partner";
 pub(crate) const PARTNER_TIP: &str = "The direction goes straight on across the longest seam";
+pub(crate) const SPLIT: &str = "Split panel";
+pub(crate) const SPLIT_BUTTON: &str = "Split";
+pub(crate) const SPLIT_TIP: &str = "Drag a line across a piece of the flat pattern, or across a panel of the garment: it is cut in two there";
+pub(crate) const SPLIT_PICKED: &str = "Cut panel in two along the picked line";
+pub(crate) const SPLIT_PICKED_TIP: &str =
+    "Pick two points of a piece in the flat pattern first, or an edge: it is cut straight through them";
+pub(crate) const SPLIT_ALONG: &str = "Split panel along the warp";
+pub(crate) const SPLIT_ACROSS: &str = "Split panel across the warp";
+pub(crate) const SPLIT_ALONG_TIP: &str =
+    "Cuts the selected panel in two, through the middle of its flat piece";
+pub(crate) const NOT_ACROSS: &str = "The line crosses no piece that has a flat pattern.";
+pub(crate) const PRINT_MOVES: &str = "A print is laid from the middle of its panel: those of the halves have moved. Undo brings back the whole.";
 pub(crate) const ORIENTATION: &str = "Laying";
 pub(crate) const ORIENTATION_TIP: &str = "In which turns the piece may be laid on the cloth";
 pub(crate) const TWO_WAY: &str = "two-way";
@@ -224,6 +236,11 @@ pub(crate) fn locked(count: usize) -> String {
         "{} locked: the direction stays as it is",
         if count == 1 { "1 panel is".to_owned() } else { format!("{count} panels are") }
     )
+}
+
+/// Why a panel cannot be split.
+pub(crate) fn not_split(panel: &str, why: impl std::fmt::Display) -> String {
+    format!("{panel} was not split: {why}")
 }
 
 /// For the history.

@@ -24,14 +24,15 @@ pub(crate) fn warnings(sheet: &Sheet, project: &Project) -> Vec<Warning> {
     let garment = &*sheet.garment;
     let mut found = Vec::new();
     for (number, panel) in garment.panels.iter().enumerate().filter(|(_, panel)| panel.takes_fabric) {
+        let name = project.panel_name(panel);
         let mut tell = |text: String| found.push(Warning { panel: number, text });
         if sheet.piece(number).is_none() {
-            tell(texts::no_uvs(&panel.name));
+            tell(texts::no_uvs(name));
         } else if panel.flags.degenerate {
-            tell(texts::degenerate(&panel.name));
+            tell(texts::degenerate(name));
         }
         if panel.flags.mirrored {
-            tell(texts::mirrored(&panel.name));
+            tell(texts::mirrored(name));
         }
         // Each pair once.
         let partner = partners::partner(garment, number).filter(|&partner| number < partner);
@@ -40,7 +41,7 @@ pub(crate) fn warnings(sheet: &Sheet, project: &Project) -> Vec<Warning> {
             let off = (grain::direction(partner, project).angle - wanted).rem_euclid(PI);
             let off = off.min(PI - off);
             if off > MOST_OFF {
-                tell(texts::partners_differ(&panel.name, &partner.name, off.to_degrees()));
+                tell(texts::partners_differ(name, project.panel_name(partner), off.to_degrees()));
             }
         }
     }

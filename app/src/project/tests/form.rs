@@ -37,6 +37,12 @@ fn people_can_read_what_is_written() {
     assert_eq!(value["panels"]["panel-1"]["direction"]["angle_deg"], 90.0);
     assert_eq!(value["panels"]["panel-1"]["fabric"], Value::Null);
     assert_eq!(value["panels"]["panel-2"]["print"]["picture"]["path"], "prints/roses.png");
+    assert_eq!(value["changes"][0]["merge"][1], "panel-4");
+    assert_eq!(value["changes"][1]["split"]["into"][0], "panel-1-1");
+    assert_eq!(
+        (&value["names"]["panel-2"], &value["groups"]["body"][1]),
+        (&json!("Ärmel"), &json!("panel-2"))
+    );
     assert!(value["panels"]["panel-0"].get("fabric").is_none(), "as by default");
 }
 

@@ -15,6 +15,7 @@ use std::time::SystemTime;
 
 use amc_core::direction::comb::{Comb, Elsewhere, Hold, Path as StrokePath, Stroke};
 use amc_core::direction::{Direction, Field, Source};
+use amc_core::mesh::Rearrangement;
 use amc_core::render::Laying;
 use amc_core::{Error, Result};
 use glam::{Vec2, Vec3};
@@ -47,6 +48,13 @@ fn rich(folder: &Path) -> Project {
         let choice = PanelChoice { fabric, direction, comb, print, visible: k != 1 };
         project.panels.insert(format!("panel-{k}"), choice);
     }
+    let merge = Rearrangement::Merge(vec!["panel-0".to_owned(), "panel-4".to_owned()]);
+    let into = ["panel-1-1".to_owned(), "panel-1-2".to_owned()];
+    let line = [Vec2::new(0.1, 1e-7), Vec2::new(-0.3, 0.7)];
+    let split = Rearrangement::Split { panel: "panel-1".to_owned(), line, into };
+    project.arrangement.changes = vec![merge, split];
+    project.arrangement.names.insert("panel-2".to_owned(), "Ärmel".to_owned());
+    project.groups.insert("body".to_owned(), ["panel-0".to_owned(), "panel-2".to_owned()].into());
     project.view.set_angles(Angles { yaw: 12.3, pitch: -45.6, roll: 78.9 });
     project.view.zoom = 1.7;
     project.notes = "two \"lines\"\nof Grüße".to_owned();

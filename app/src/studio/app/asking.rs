@@ -1,9 +1,12 @@
 //! What comes from outside the window, and what is asked before the work goes on.
 
+use amc_core::mesh::Unit;
 use eframe::egui::{self, ViewportCommand};
+use studio_plugin::document::{Asset, Edit};
 
 use super::App;
 use crate::studio::files::{self, Dialog, Purpose};
+use crate::studio::other_garment::{self, OtherGarment};
 use crate::studio::questions::{self, OfMissing, OfRecovery};
 use crate::studio::texts;
 use crate::studio::theme::{STEP, Tokens};
@@ -68,6 +71,42 @@ impl App {
         }
     }
 
+    /// Opens another garment: at once where nothing was chosen for panels that it may not have.
+    pub(super) fn open_garment(&mut self, asset: Asset) {
+        let project = self.desk.document.project();
+        match other_garment::has_choices(project) {
+            true => self.other_garment = Some(OtherGarment::new(asset, project, &mut self.jobs)),
+            false => self.set_garment(asset),
+        }
+    }
+
+    fn set_garment(&mut self, asset: Asset) {
+        if let Err(error) = self.desk.document.submit(Edit::SetGarment(asset), None) {
+            self.notices.failed(error);
+        }
+    }
+
+    /// Takes in a garment that was read; where it has all panels that matter, there is nothing to ask.
+    pub(super) fn read_garment(&mut self) {
+        let Some(other) = &mut self.other_garment else { return };
+        match other.poll(self.desk.document.project(), self.stager.stage.garment.as_deref()) {
+            Ok(true) if other.lost.is_empty() => self.take_garment(),
+            Ok(_) => {}
+            Err(error) => {
+                self.other_garment = None;
+                self.notices.failed(error);
+            }
+        }
+    }
+
+    fn take_garment(&mut self) {
+        let Some(OtherGarment { asset, garment, .. }) = self.other_garment.take() else { return };
+        if let Some(garment) = garment {
+            self.stager.offer(asset.clone(), Unit::Metre, garment);
+        }
+        self.set_garment(asset);
+    }
+
     /// Asks what must be answered before the work goes on.
     pub(super) fn question(&mut self, ui: &egui::Ui) {
         // One at a time: what is taken back would take the place of what is not saved yet.
@@ -75,6 +114,12 @@ impl App {
         match questions::recovery(ui, offered) {
             Some(OfRecovery::Recover(index)) => self.desk.recover(index, &mut self.jobs),
             Some(OfRecovery::Discard(index)) => self.desk.discard(index, &mut self.notices),
+            None => {}
+        }
+        let other = self.other_garment.as_ref().filter(|other| !other.lost.is_empty());
+        match other.and_then(|other| questions::other_garment(ui, &other.asset.name(), &other.lost)) {
+            Some(true) => self.take_garment(),
+            Some(false) => self.other_garment = None,
             None => {}
         }
         match questions::missing(ui, &self.desk.missing) {

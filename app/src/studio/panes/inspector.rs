@@ -3,7 +3,7 @@
 use amc_core::direction::{Direction, Source};
 use amc_core::mesh::{Garment, Panel, Unit};
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
-use studio_plugin::document::{Edit, Gesture};
+use studio_plugin::document::{Edit, Gesture, Project};
 use studio_plugin::{Command, Context, Pane, Place, Plugin};
 
 use super::panels::flags;
@@ -80,7 +80,7 @@ impl Plugin for Inspector {
                 ui.weak(texts::CLICK);
                 unit(ui, studio);
             }
-            (1, [panel]) => facts(ui, panel, &garment),
+            (1, [panel]) => facts(ui, panel, (&garment, studio.document.project())),
             (count, _) => {
                 ui.heading(texts::panels(count));
             }
@@ -125,9 +125,9 @@ fn direction(panel: &Panel, studio: &Context<'_>) -> Direction {
     look.direction.unwrap_or_else(|| Direction::along_grain(panel))
 }
 
-fn facts(ui: &mut egui::Ui, panel: &Panel, garment: &Garment) {
-    ui.heading(&panel.name);
-    let name = |index: usize| garment.panels.get(index).map_or("", |panel| panel.name.as_str());
+fn facts(ui: &mut egui::Ui, panel: &Panel, (garment, project): (&Garment, &Project)) {
+    ui.heading(project.panel_name(panel));
+    let name = |index: usize| garment.panels.get(index).map_or("", |panel| project.panel_name(panel));
     let mut facts =
         vec![(texts::AREA, texts::area(panel.area)), (texts::TRIANGLES, panel.triangles.len().to_string())];
     if let Some(grain) = panel.pattern.grain {

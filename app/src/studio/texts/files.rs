@@ -4,6 +4,17 @@ use std::fmt::Display;
 
 pub(crate) const SAVED_AFTER: &str = "The file was saved after it: it probably holds this work already.";
 
+pub(crate) const HAS_NO_PANEL_FOR: &str = "It has no panels to wear this:";
+pub(crate) const COMES_BACK: &str =
+    "It stays in the project, and is worn again by a garment that has these panels.";
+pub(crate) const OPEN_ANYWAY: &str = "Open anyway";
+pub(crate) const ITS_FABRIC: &str = "its fabric";
+
+/// Asks before another garment is opened.
+pub(crate) fn other_garment(name: &str) -> String {
+    format!("Open {name}?")
+}
+
 /// Asks for a missing file.
 pub(crate) fn where_is(file: impl Display) -> String {
     format!("Where is {file}?")

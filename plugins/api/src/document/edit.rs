@@ -9,6 +9,7 @@ use amc_core::direction::comb::Comb;
 use amc_core::mesh::Unit;
 use amc_core::render::Laying;
 use amc_core::{Error, Result};
+use glam::Vec2;
 use serde_json::Value;
 
 use super::{Asset, FabricId, FabricInUse, PanelChoice, PanelPrint, Project};
@@ -75,6 +76,37 @@ pub enum Edit {
         /// The same for all.
         laying: Laying,
     },
+    /// What a panel is called.
+    RenamePanel {
+        /// The panel.
+        panel: String,
+        /// None: as the garment calls it.
+        name: Option<String>,
+    },
+    /// The group the panels are in.
+    GroupPanels {
+        /// The panels.
+        panels: Vec<String>,
+        /// None: in no group.
+        group: Option<String>,
+    },
+    /// Two panels or more become one, which is known by the id of the first and looks as that does.
+    MergePanels {
+        /// The panels, each once.
+        panels: Vec<String>,
+        /// The strokes that comb it then.
+        comb: Option<Arc<Comb>>,
+    },
+    /// A panel is cut in two; the halves look as it does.
+    SplitPanel {
+        /// The panel.
+        panel: String,
+        /// The ends of the cut, on its outline: in UVs.
+        line: [Vec2; 2],
+        /// Ids for the half on the left of the line (v up) and for the one on the right:
+        /// [`Project::free_panel_ids`].
+        into: [String; 2],
+    },
     /// The notes, whole.
     SetNotes(String),
     /// What a plugin keeps with the project.
@@ -138,6 +170,15 @@ impl Edit {
                     print.laying = laying;
                 }
             }),
+            Self::RenamePanel { panel, name: Some(name) } => {
+                project.arrangement.names.insert(panel, name);
+            }
+            Self::RenamePanel { panel, name: None } => {
+                project.arrangement.names.remove(&panel);
+            }
+            Self::GroupPanels { panels, group } => project.group(&panels, group),
+            Self::MergePanels { panels, comb } => project.merge_panels(panels, comb),
+            Self::SplitPanel { panel, line, into } => project.split_panel(panel, line, into),
             Self::SetNotes(notes) => project.notes = notes,
             Self::SetPluginState { plugin, state: Value::Null, .. } => {
                 project.plugins.remove(&plugin);

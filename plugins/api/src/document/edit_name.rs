@@ -34,6 +34,14 @@ impl Edit {
             }
             Self::SetPrint { panels, print: None } => format!("Take the print off {}", counted(panels.len())),
             Self::LayPrint { panels, .. } => format!("Move the print of {}", counted(panels.len())),
+            Self::RenamePanel { name: Some(name), .. } => format!("Rename a panel to {name}"),
+            Self::RenamePanel { name: None, .. } => "Name a panel as its garment does".to_owned(),
+            Self::GroupPanels { panels, group: Some(group) } => {
+                format!("Group {} as {group}", counted(panels.len()))
+            }
+            Self::GroupPanels { panels, group: None } => format!("Ungroup {}", counted(panels.len())),
+            Self::MergePanels { panels, .. } => format!("Merge {}", counted(panels.len())),
+            Self::SplitPanel { .. } => "Split a panel".to_owned(),
             Self::SetNotes(_) => "Edit the notes".to_owned(),
             Self::SetPluginState { what, .. } | Self::SetComb { what, .. } => what.clone(),
             Self::Relocate { old, .. } => format!("Locate {}", Asset::file(old.as_path()).name()),

@@ -8,6 +8,7 @@ mod comparison;
 mod edit;
 mod edit_name;
 mod history;
+mod panel_groups;
 mod panel_print;
 mod project;
 #[cfg(test)]

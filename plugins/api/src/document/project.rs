@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use amc_core::direction::comb::Comb;
 use amc_core::direction::{Direction, Field, Source};
-use amc_core::mesh::{Panel, Unit};
+use amc_core::mesh::{Arrangement, Panel, Unit};
 use amc_core::{Error, Result};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -26,6 +26,10 @@ pub struct Project {
     pub fabrics: Vec<FabricInUse>,
     /// What was chosen for each panel, by its id. A panel that is not listed is all as by default.
     pub panels: BTreeMap<String, PanelChoice>,
+    /// What the person made of the garment's panels: merged, split, renamed.
+    pub arrangement: Arrangement,
+    /// Panels that the person put together, by the groups' names. A panel is in one group at most.
+    pub groups: BTreeMap<String, BTreeSet<String>>,
     /// How it is looked at.
     pub view: ViewSettings,
     /// What plugins keep with the project, by their ids; at most [`Project::MOST_PLUGIN_STATE`] bytes each. That of plugins
@@ -80,6 +84,8 @@ impl Default for Project {
             unit: Unit::Metre,
             fabrics: vec![satin],
             panels: BTreeMap::new(),
+            arrangement: Arrangement::default(),
+            groups: BTreeMap::new(),
             plugins: BTreeMap::new(),
             view: ViewSettings::default(),
             notes: String::new(),
@@ -181,6 +187,7 @@ impl Project {
         self.garment.check_garment().map_err(|error| error.at_element("garment"))?;
         self.check_fabrics()?;
         self.check_panels()?;
+        self.check_arrangement()?;
         self.check_plugins()?;
         self.view.check()?;
         if self.notes.len() > Self::LONGEST_NOTES {
@@ -266,6 +273,7 @@ impl Project {
             + fabrics.sum::<usize>()
             + panels.sum::<usize>()
             + self.plugins.iter().map(|(id, state)| id.len() + json_bytes(state)).sum::<usize>()
+            + self.arrangement_bytes()
             + self.notes.len()
     }
 }
@@ -282,7 +290,7 @@ fn json_bytes(value: &Value) -> usize {
     }
 }
 
-fn check_name(name: &str, what: &str) -> Result<()> {
+pub(super) fn check_name(name: &str, what: &str) -> Result<()> {
     if name.trim().is_empty() {
         return Err(Error::invalid(format!("{what} is empty")));
     }

@@ -34,7 +34,8 @@ pub(crate) fn drag(
     studio: &mut Context<'_>,
 ) {
     let panel = sheet.panel(piece);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, texts::arrow(&panel.name)));
+    let name = texts::arrow(studio.document.project().panel_name(panel));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, &name));
     if response.hovered() || response.dragged() {
         response.ctx.set_cursor_icon(CursorIcon::Grab);
     }

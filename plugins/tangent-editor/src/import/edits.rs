@@ -28,7 +28,7 @@ pub struct Planned {
 pub fn edits(import: &Import, garment: &Garment, project: &Project) -> Result<Planned> {
     let assignments = Assignments::of(project)?;
     let id = |found: &Found| garment.panels.get(found.panel).map(|panel| panel.id.clone());
-    let name = |found: &&Found| garment.panels.get(found.panel).map_or("", |panel| panel.name.as_str());
+    let name = |found: &&Found| garment.panels.get(found.panel).map_or("", |panel| project.panel_name(panel));
     let is_locked = |found: &Found| id(found).is_some_and(|id| assignments.panel(&id).is_locked);
     let mut planned = Planned { panels: import.found.len(), ..Planned::default() };
     let mut directions: Vec<(Direction, Vec<String>)> = Vec::new();

@@ -18,6 +18,7 @@ use crate::grain;
 use crate::grain::arrow::{self, Arrow, TIP};
 use crate::seeing_view::SeeingView;
 use crate::sheet::{Piece, Sheet, line};
+use crate::splitting::{self, Cutter};
 use crate::texts::{self, comb as comb_texts};
 
 /// How near the pointer must be to an edge or a seam, points.
@@ -43,6 +44,9 @@ struct Under {
     seam: Option<(usize, usize)>,
 }
 
+/// What is worked with in the pane: the edge that was picked, the hand of each tool, what is seen over the pieces.
+pub(crate) type Hands<'a> = (&'a mut Option<PickedLine>, &'a mut Stylus, &'a mut Cutter, &'a mut SeeingView);
+
 impl PatternPane {
     /// From the next frame on the whole pattern is shown.
     pub(crate) fn fit(&mut self) {
@@ -54,7 +58,7 @@ impl PatternPane {
         &mut self,
         ui: &mut egui::Ui,
         sheet: &Sheet,
-        (picked, stylus, seeing): (&mut Option<PickedLine>, &mut Stylus, &mut SeeingView),
+        (picked, stylus, cutter, seeing): Hands<'_>,
         marked: Option<SurfacePlace>,
         studio: &mut Context<'_>,
     ) -> Option<SurfacePlace> {
@@ -67,6 +71,11 @@ impl PatternPane {
             if draw.on_hover_text(comb_texts::DRAW_TIP).clicked() {
                 studio.take(comb::TOOL);
             }
+            let split =
+                ui.add(egui::Button::new(texts::SPLIT_BUTTON).selected(studio.holds(splitting::TOOL)));
+            if split.on_hover_text(texts::SPLIT_TIP).clicked() {
+                studio.take(splitting::TOOL);
+            }
             seeing.choice(ui);
             if !is_combing {
                 ui.weak(texts::SHORT_HELP).on_hover_text(texts::HELP);
@@ -75,8 +84,9 @@ impl PatternPane {
         let (pane, background) =
             ui.allocate_exact_size(ui.available_size().max(vec2(40.0, 40.0)), Sense::click_and_drag());
         let mut camera = self.camera.unwrap_or_else(|| Camera::fit(sheet.size, pane.size()));
-        let is_combing = studio.holds(comb::TOOL);
-        self.move_camera(ui, &mut camera, pane, (&background, is_combing));
+        let (is_combing, is_splitting) = (studio.holds(comb::TOOL), studio.holds(splitting::TOOL));
+        let has_tool = is_combing || is_splitting;
+        self.move_camera(ui, &mut camera, pane, (&background, has_tool));
         let pointer = ui
             .input(|input| input.pointer.hover_pos())
             .filter(|at| pane.contains(*at) && background.contains_pointer());
@@ -85,11 +95,13 @@ impl PatternPane {
         let finder = OnSheet { sheet, camera, pane };
         if is_combing {
             stylus.use_in(&background, &finder, sheet, studio);
+        } else if is_splitting {
+            cutter.use_in(&background, &finder, sheet, studio);
         } else if background.clicked() {
             self.click((ui, sheet), at, (under, REACH / camera.scale), picked, studio);
         }
         pick(ui, sheet, (camera, pane), under, studio);
-        if !is_combing {
+        if !has_tool {
             self.turn_arrows(ui, sheet, (camera, pane), studio);
         }
         let marked_at = marked.and_then(|place| on_sheet(sheet, &place));
@@ -143,11 +155,11 @@ impl PatternPane {
         ui: &egui::Ui,
         camera: &mut Camera,
         pane: Rect,
-        (background, is_combing): (&Response, bool),
+        (background, has_tool): (&Response, bool),
     ) {
         let before = *camera;
-        // The left button is the comb's while it is in the hand.
-        let is_tool = is_combing && background.dragged_by(egui::PointerButton::Primary);
+        // The left button is the tool's while one is in the hand.
+        let is_tool = has_tool && background.dragged_by(egui::PointerButton::Primary);
         if background.dragged() && !is_tool {
             camera.pan(background.drag_delta());
         }
@@ -161,7 +173,7 @@ impl PatternPane {
         if *camera != before {
             self.camera = Some(*camera);
         }
-        if background.double_clicked() && !is_combing {
+        if background.double_clicked() && !has_tool {
             self.camera = None;
         }
     }
@@ -232,7 +244,11 @@ fn pick(
             ui.interact(rect, ui.scope_id().with(("piece", number)), Sense::focusable_noninteractive());
         let degrees = shown_degrees(sheet, piece, studio);
         response.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::Role::Button, true, texts::piece(&panel.name, degrees))
+            egui::WidgetInfo::labeled(
+                egui::Role::Button,
+                true,
+                texts::piece(studio.document.project().panel_name(panel), degrees),
+            )
         });
         let has_focus = response.has_focus();
         let asked = ui.input(|input| {

@@ -173,7 +173,11 @@ fn paint_grain(
         return;
     }
     let panel = sheet.panel(piece);
-    let text = format!("{}  {:.1}\u{b0}", panel.name, shown_degrees(sheet, piece, studio));
+    let text = format!(
+        "{}  {:.1}\u{b0}",
+        studio.document.project().panel_name(panel),
+        shown_degrees(sheet, piece, studio)
+    );
     let galley = painter.layout_no_wrap(text, FontId::proportional(TEXT), color);
     let at = camera.to_window(piece.middle, pane) + egui::vec2(-galley.size().x / 2.0, 0.0);
     // Beside the arrow, on the side where it does not point.

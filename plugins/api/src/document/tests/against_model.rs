@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use amc_core::direction::comb::Comb;
-use amc_core::mesh::Unit;
+use amc_core::mesh::{Rearrangement, Unit};
 use amc_core::render::Laying;
 
 use super::super::{Asset, Document, Edit, FabricId, Gesture, PanelPrint, Project};
@@ -40,6 +40,10 @@ struct Plain {
     panels: [(i64, Option<f32>, bool, Option<f32>); PANELS.len()],
     /// Per panel: how far its comb is turned; none: not combed.
     combed: [Option<f32>; PANELS.len()],
+    /// Per panel: its group, and its name.
+    grouped: [(Option<u8>, Option<u8>); PANELS.len()],
+    /// How many panels were merged each time.
+    merged: Vec<usize>,
     notes: String,
     /// What a plugin keeps.
     kept: Option<usize>,
@@ -54,6 +58,8 @@ impl Plain {
             fabrics: vec![0],
             panels,
             combed: [None; PANELS.len()],
+            grouped: [(None, None); PANELS.len()],
+            merged: Vec::new(),
             notes: String::new(),
             kept: None,
         }
@@ -75,8 +81,19 @@ impl Plain {
         });
         let combed =
             PANELS.iter().zip(&self.combed).all(|(name, turn)| project.comb(name).map(|it| it.turn) == *turn);
+        let number = |text: &str| text.parse::<u8>().ok();
+        let grouped = PANELS.iter().zip(&self.grouped).all(|(name, known)| {
+            let called = project.arrangement.names.get(*name);
+            (project.group_of(name).and_then(number), called.and_then(|name| number(name))) == *known
+        });
+        let merged = project.arrangement.changes.iter().map(|change| match change {
+            Rearrangement::Merge(panels) => panels.len(),
+            Rearrangement::Split { .. } => 0,
+        });
         looks
             && combed
+            && grouped
+            && merged.eq(self.merged.iter().copied())
             && fabrics == self.fabrics
             && project.garment == Asset::Bundled(self.garment.clone())
             && project.unit == self.unit
@@ -90,7 +107,7 @@ impl Plain {
         let mut after = self.clone();
         let chosen: Vec<usize> = (0..PANELS.len()).filter(|_| random.chance(2)).collect();
         let names: Vec<String> = chosen.iter().map(|&k| PANELS[k].to_owned()).collect();
-        let edit = match random.below(13) {
+        let edit = match random.below(16) {
             0 => {
                 after.unit = Unit::Metre;
                 after.garment = ["garment:shirt", "shape:sheet", "garment:scarf"][random.below(3)].to_owned();
@@ -180,6 +197,27 @@ impl Plain {
                 let (name, what) = (PANELS[panel].to_owned(), "Comb".to_owned());
                 let edit = Edit::SetComb { panel: name, comb, what };
                 if is_bad {
+                    return (edit, None);
+                }
+                edit
+            }
+            12 => {
+                let group = [None, Some(1), Some(2)][random.below(3)];
+                chosen.iter().for_each(|&k| after.grouped[k].0 = group);
+                Edit::GroupPanels { panels: names, group: group.map(|it: u8| it.to_string()) }
+            }
+            13 => {
+                let (panel, name) = (random.below(PANELS.len()), [None, Some(1), Some(2)][random.below(3)]);
+                after.grouped[panel].1 = name;
+                Edit::RenamePanel { panel: PANELS[panel].to_owned(), name: name.map(|it: u8| it.to_string()) }
+            }
+            14 => {
+                after.merged.push(names.len());
+                if let Some(&first) = chosen.first() {
+                    after.combed[first] = None;
+                }
+                let edit = Edit::MergePanels { panels: names, comb: None };
+                if chosen.len() < 2 || after.merged.len() > 4096 {
                     return (edit, None);
                 }
                 edit

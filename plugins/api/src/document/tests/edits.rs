@@ -125,6 +125,13 @@ fn what_would_break_a_project_is_refused_and_changes_nothing() {
         (turn("a", 0.0, f32::NAN), "not a finite number"),
         (Edit::SetDirection { panels: panels(&["a"]), direction: Some(endless) }, "not a finite number"),
         (Edit::SetNotes("n".repeat(Project::LONGEST_NOTES + 1)), "notes are longer"),
+        (Edit::RenamePanel { panel: "a".into(), name: Some(" ".into()) }, "name is empty"),
+        (Edit::GroupPanels { panels: panels(&["a"]), group: Some(String::new()) }, "name is empty"),
+        (Edit::MergePanels { panels: panels(&["a"]), comb: None }, "two panels or more"),
+        (
+            Edit::SplitPanel { panel: "a".into(), line: [glam::Vec2::X; 2], into: ["b".into(), "c".into()] },
+            "no length",
+        ),
         (Edit::Relocate { old: "/not/used".into(), new: Asset::file("/b") }, "does not use"),
     ];
     let mut document = document();
@@ -134,6 +141,53 @@ fn what_would_break_a_project_is_refused_and_changes_nothing() {
         assert!(said.contains(reason), "{edit:?}: {said}");
         assert_eq!((document.snapshot().project, document.revision(), document.position()), before);
     }
+}
+
+#[test]
+fn a_panel_is_in_one_group_and_an_empty_group_is_none() {
+    let mut document = document();
+    let group = |names: &[&str], group: Option<&str>| Edit::GroupPanels {
+        panels: panels(names),
+        group: group.map(str::to_owned),
+    };
+    document.submit(group(&["front", "back"], Some("body")), None).unwrap();
+    document.submit(group(&["back", "cuff"], Some("rest")), None).unwrap();
+    let project = document.project();
+    assert_eq!(
+        ["front", "back", "cuff"].map(|id| project.group_of(id)),
+        [Some("body"), Some("rest"), Some("rest")]
+    );
+    document.submit(group(&["front"], None), None).unwrap();
+    assert_eq!(document.project().groups.keys().collect::<Vec<_>>(), ["rest"]);
+    assert_eq!(document.undo().unwrap(), "Ungroup 1 panel");
+    assert_eq!(document.undo().unwrap(), "Group 2 panels as rest");
+}
+
+#[test]
+fn halves_take_over_all_that_was_chosen_for_the_whole() {
+    let mut document = document();
+    let fabric = Some(FabricId::new(1));
+    document.submit(Edit::SetFabric { panels: panels(&["front"]), fabric }, None).unwrap();
+    document.submit(turn("front", 0.5, 0.25), None).unwrap();
+    document.submit(Edit::RenamePanel { panel: "front".into(), name: Some("Vorn".into()) }, None).unwrap();
+    let grouped = Edit::GroupPanels { panels: panels(&["front"]), group: Some("body".into()) };
+    document.submit(grouped, None).unwrap();
+    let line = [glam::Vec2::ZERO, glam::Vec2::Y];
+    let into = ["front-1".to_owned(), "front-2".to_owned()];
+    document.submit(Edit::SplitPanel { panel: "front".into(), line, into }, None).unwrap();
+    let project = document.project();
+    for (half, name) in [("front-1", "Vorn 1"), ("front-2", "Vorn 2")] {
+        assert_eq!(project.look(half), project.look("front"));
+        assert_eq!((project.group_of(half), &*project.arrangement.names[half]), (Some("body"), name));
+    }
+    document.submit(Edit::MergePanels { panels: panels(&["front-2", "front-1"]), comb: None }, None).unwrap();
+    assert_eq!(document.project().arrangement.changes.len(), 2);
+    assert_eq!(document.undo().unwrap(), "Merge 2 panels");
+    assert_eq!(document.undo().unwrap(), "Split a panel");
+    assert!(
+        document.project().arrangement.changes.is_empty()
+            && !document.project().panels.contains_key("front-1")
+    );
 }
 
 #[test]
