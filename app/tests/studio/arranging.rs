@@ -69,7 +69,7 @@ fn panels_are_renamed_grouped_merged_split_undone_saved_and_opened_again() {
     assert_eq!(harness.state().document().undo_name(), Some("Merge 2 panels"));
 
     select(&mut harness, "back");
-    command(&mut harness, "split panel across the warp");
+    command(&mut harness, "cut panel in two across");
     assert_eq!(harness.state().document().undo_name(), Some("Split a panel"));
     assert!(lists(&harness, "back 1") && lists(&harness, "back 2"));
     undo(&mut harness);
@@ -109,8 +109,11 @@ fn a_line_is_dragged_across_a_piece() {
         piece.right_center() + egui::vec2(4.0, 20.0),
     );
     assert_eq!(harness.state().document().undo_name(), Some("Split a panel"));
+    // The halves are asked for in the frame after the line is drawn.
+    settle(&mut harness);
     assert!(lists(&harness, "back 1") && lists(&harness, "back 2"));
     undo(&mut harness);
+    settle(&mut harness);
     assert!(!lists(&harness, "back 1"));
 }
 
@@ -131,6 +134,8 @@ fn what_another_garment_has_no_panel_for_is_said_before_it_is_opened() {
     harness.state_mut().open(&sheet);
     settle(&mut harness);
     click(&mut harness, "Open anyway");
+    // The garment is asked for in the frame after the answer.
+    settle(&mut harness);
     assert_eq!(harness.state().document().undo_name(), Some("Change the garment to sheet"));
     assert!(lists(&harness, "cloth") && degrees(&harness, "left-sleeve").is_some());
 }

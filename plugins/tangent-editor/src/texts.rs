@@ -74,8 +74,8 @@ pub(crate) const SPLIT_TIP: &str = "Drag a line across a piece of the flat patte
 pub(crate) const SPLIT_PICKED: &str = "Cut panel in two along the picked line";
 pub(crate) const SPLIT_PICKED_TIP: &str =
     "Pick two points of a piece in the flat pattern first, or an edge: it is cut straight through them";
-pub(crate) const SPLIT_ALONG: &str = "Split panel along the warp";
-pub(crate) const SPLIT_ACROSS: &str = "Split panel across the warp";
+pub(crate) const SPLIT_ALONG: &str = "Cut panel in two along the warp";
+pub(crate) const SPLIT_ACROSS: &str = "Cut panel in two across the warp";
 pub(crate) const SPLIT_ALONG_TIP: &str =
     "Cuts the selected panel in two, through the middle of its flat piece";
 pub(crate) const NOT_ACROSS: &str = "The line crosses no piece that has a flat pattern.";

@@ -113,7 +113,8 @@ impl Cutter<'_> {
     fn part(&mut self, triangle: [u32; 3], parted: &mut Vec<[u32; 3]>) {
         let off = triangle.map(|vertex| self.off(vertex));
         let has = |sign: f32| off.iter().any(|off| off * sign > 0.0);
-        if !(has(1.0) && has(-1.0)) || !self.line.meets(&self.chord(triangle, off)) {
+        let is_cut = has(1.0) && has(-1.0) && self.line.meets(&self.chord(triangle, off));
+        if !is_cut {
             return parted.push(triangle);
         }
         if let Some(k) = off.iter().position(|off| *off == 0.0) {

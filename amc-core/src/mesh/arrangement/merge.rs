@@ -24,7 +24,7 @@ pub(super) fn merge(garment: &mut Garment, members: &[usize]) -> Result<(), Stri
     for (number, panel) in garment.panels.iter_mut().enumerate() {
         let mirror = panel.pattern.mirror;
         // Who mirrors a part of the new panel only mirrors it no longer.
-        let holds = |partner: &usize| !is_gone(*partner) && !(is_member(*partner) && is_member(number));
+        let holds = |partner: &usize| !(is_gone(*partner) || is_member(*partner) && is_member(number));
         panel.pattern.mirror = mirror.filter(holds).map(|partner| places[partner]);
         panel.pattern.seams.iter_mut().for_each(|seam| seam.partner = places[seam.partner]);
     }
