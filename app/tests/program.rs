@@ -481,6 +481,46 @@ fn a_project_is_rendered_as_its_looks_and_its_view_say() {
 }
 
 #[test]
+fn a_colourway_is_rendered_by_its_name() {
+    let folder = scratch();
+    let here = folder.path();
+    let fabric = |name: &str| concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/fabrics/").to_owned() + name;
+    let small = ["--size", "32", "--slices", "16"];
+    done(here, &[&["bake", &fabric("satin.json"), "-o", "a.amc.ktx2"], &small[..]].concat());
+    done(here, &[&["bake", &fabric("changeant.json"), "-o", "b.amc.ktx2"], &small[..]].concat());
+    let id = json(here, &["inspect", "shape:torus"])["panels"][0]["id"].as_str().unwrap().to_owned();
+    let project = serde_json::json!({
+        "version": 1,
+        "garment": "shape:torus",
+        "fabrics": [{"id": 1, "asset": "a.amc.ktx2"}, {"id": 2, "asset": "b.amc.ktx2"}],
+        "panels": {&id: {"fabric": 1, "direction": {"angle_deg": 60.0}}},
+        "colourways": [
+            {"id": 0, "name": "Day"},
+            {"id": 1, "name": "Night", "panels": {&id: {"fabric": 2}}},
+        ],
+    });
+    amc_core::file::save_bytes(&here.join("mine.amcproj"), project.to_string().as_bytes()).unwrap();
+    let render = |options: &[&str]| {
+        let size = ["--size", "96x96", "--occlusion", "off", "--renderer", "cpu"];
+        done(here, &[&["render", "mine.amcproj", "-o", "a.png"], &size[..], options].concat());
+        amc_core::image::decode::read(&here.join("a.png")).unwrap()
+    };
+    let psnr = |a: &amc_core::image::Picture, b: &amc_core::image::Picture| {
+        amc_core::image::compare::psnr_srgb(a, b).unwrap()
+    };
+    let (day, night) = (render(&["--colourway", "Day"]), render(&["--colourway", "Night"]));
+    assert!(psnr(&day, &render(&[])) > 60.0, "it is worn");
+    assert!(psnr(&day, &night) < 30.0);
+    // The fabric alone is another: the direction is the garment's.
+    assert!(psnr(&night, &render(&["--amc", "b.amc.ktx2"])) > 60.0);
+    let said = refused(here, &["render", "mine.amcproj", "-o", "a.png", "--colourway", "Dawn"], 1);
+    assert!(said.contains("'Day', 'Night'"), "{said}");
+    let held = json(here, &["inspect", "mine.amcproj"]);
+    assert_eq!(held["colourways"][0], serde_json::json!({"id": 0, "name": "Day", "worn": true}));
+    assert_eq!(held["colourways"][1]["panels"][0]["fabric"], 2);
+}
+
+#[test]
 fn a_hidden_panel_is_not_in_the_picture() {
     let folder = scratch();
     let here = folder.path();

@@ -1,5 +1,6 @@
 //! `amc-studio inspect`: what a project, a mesh, an AMC or a capture session holds.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use amc_core::amc::Amc;
@@ -7,7 +8,9 @@ use amc_core::capture::{SESSION_FILE, Session};
 use amc_core::mesh::{Distortion, Garment, Panel, Unit};
 use amc_core::{Error, Progress, Result};
 use serde_json::{Value, json};
-use studio_plugin::document::{Asset, FabricInUse, PanelChoice};
+use studio_plugin::document::{
+    Asset, ColourwayLabel, FabricId, FabricInUse, PanelChoice, PanelPrint, PanelWear,
+};
 
 use super::Outcome;
 use super::output::Output;
@@ -98,19 +101,36 @@ fn project(file: &Path) -> Result<Value> {
         merge(&mut described, asset(&fabric.asset));
         described
     };
-    let panel = |(id, choice): (&String, &PanelChoice)| {
-        let mut described = json!({ "id": id, "visible": choice.visible });
+    let wear = |fabric: Option<Option<FabricId>>, print: Option<&PanelPrint>| {
+        let mut described = json!({});
         // What nobody has chosen is not there; a chosen null is plain grey.
-        if let Some(fabric) = choice.fabric {
+        if let Some(fabric) = fabric {
             described["fabric"] = json!(fabric);
         }
+        if let Some(print) = print {
+            described["print"] = asset(&print.picture);
+            described["print_width_m"] = json!(print.laying.width);
+        }
+        described
+    };
+    let panel = |(id, choice): (&String, &PanelChoice)| {
+        let mut described = json!({ "id": id, "visible": choice.visible });
+        merge(&mut described, wear(choice.fabric, choice.print.as_ref()));
         if let Some(direction) = choice.direction {
             described["angle_deg"] = json!(direction.angle.to_degrees());
             described["source"] = json!(direction.source);
         }
-        if let Some(print) = &choice.print {
-            described["print"] = asset(&print.picture);
-            described["print_width_m"] = json!(print.laying.width);
+        described
+    };
+    let colourway = |(label, kept): (&ColourwayLabel, Option<&BTreeMap<String, PanelWear>>)| {
+        let mut described = json!({ "id": label.id, "name": label.name, "worn": kept.is_none() });
+        if let Some(kept) = kept {
+            let panel = |(id, panel): (&String, &PanelWear)| {
+                let mut described = json!({ "id": id });
+                merge(&mut described, wear(panel.fabric, panel.print.as_ref()));
+                described
+            };
+            described["panels"] = kept.iter().map(panel).collect();
         }
         described
     };
@@ -121,6 +141,7 @@ fn project(file: &Path) -> Result<Value> {
         "panels": project.panels.iter().map(panel).collect::<Vec<_>>(),
         "arrangement": project.arrangement,
         "groups": project.groups,
+        "colourways": project.colourways.all().map(colourway).collect::<Vec<_>>(),
         "view": project.view,
         "notes": project.notes,
         "notices": notices,

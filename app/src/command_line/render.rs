@@ -37,6 +37,9 @@ pub(super) struct Arguments {
     /// else fabric:satin].
     #[arg(long)]
     amc: Option<PathBuf>,
+    /// The colourway of a project, by its name [default: the one that is worn].
+    #[arg(long, value_name = "NAME")]
+    colourway: Option<String>,
     /// ID|all[,amc=FILE|fabric:NAME][,angle=DEGREES][,source=NAME]; repeatable, later ones win. The angle counts from +u
     /// of the flat pattern [default: the project's, else the panel's grain, else 0]. Sources: gradient, yarn, around-x|y|z, along-x|y|z, radial.
     #[arg(long)]
@@ -118,7 +121,10 @@ pub(super) fn run(arguments: &Arguments, output: &Output) -> Outcome {
     Order::check_file(&kind, &arguments.output).map_err(|error| Failure::Usage(error.to_string()))?;
     let mode = mode(arguments)?;
     let (scene, device) = with_progress(|progress| {
-        let scene = open_scene(&arguments.scene, arguments.unit, progress)?;
+        let mut scene = open_scene(&arguments.scene, arguments.unit, progress)?;
+        if let Some(name) = &arguments.colourway {
+            scene.wear(name)?;
+        }
         for notice in &scene.notices {
             output.notice(notice);
         }
@@ -169,7 +175,10 @@ fn painter(
     let starting = (project.as_ref(), arguments.amc.as_deref());
     let looks = panel_looks(garment, starting, &arguments.panel, Some(&mut fabrics), progress)?;
     let prints = match project {
-        Some(project) => worn_prints(project, garment, &load_prints(project, garment)?),
+        Some(project) => {
+            let worn = (project, project.colourways.worn().id);
+            worn_prints(worn, garment, &load_prints(project, garment)?)
+        }
         None => Vec::new(),
     };
     let drawing =

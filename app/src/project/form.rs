@@ -1,5 +1,7 @@
 //! How a project looks in its file, version 1. Directions are in degrees there, as people read and write it.
 
+mod colourways;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
@@ -12,8 +14,11 @@ use amc_core::render::Laying;
 use glam::Vec2;
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
-use studio_plugin::document::{Asset, FabricId, FabricInUse, PanelChoice, PanelPrint, Project, ViewSettings};
+use studio_plugin::document::{
+    Asset, ColourwayId, FabricId, FabricInUse, PanelChoice, PanelPrint, Project, ViewSettings,
+};
 
+use self::colourways::ColourwayForm;
 use super::paths;
 
 /// A `.amcproj`. Every key is always written, but for those of panels' names, groups and changes where there are none; any but
@@ -33,6 +38,10 @@ pub(super) struct ProjectForm {
     names: BTreeMap<String, String>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     groups: BTreeMap<String, BTreeSet<String>>,
+    /// None: a single one, called as by default.
+    colourways: Vec<ColourwayForm>,
+    /// None: the first.
+    worn_colourway: Option<ColourwayId>,
     plugins: BTreeMap<String, Value>,
     view: ViewSettings,
     notes: String,
@@ -55,6 +64,8 @@ impl Default for ProjectForm {
             changes: Vec::new(),
             names: BTreeMap::new(),
             groups: BTreeMap::new(),
+            colourways: Vec::new(),
+            worn_colourway: None,
             plugins,
             view,
             notes,
@@ -150,6 +161,8 @@ impl ProjectForm {
             changes: project.arrangement.changes.clone(),
             names: project.arrangement.names.clone(),
             groups: project.groups.clone(),
+            colourways: colourways::written(&project.colourways, folder)?,
+            worn_colourway: Some(project.colourways.worn().id),
             plugins: project.plugins.clone(),
             view: project.view.clone(),
             notes: project.notes.clone(),
@@ -157,7 +170,10 @@ impl ProjectForm {
     }
 
     /// The project that is meant, unchecked, in `folder`.
-    pub(super) fn into_project(self, folder: Option<&Path>) -> Project {
+    ///
+    /// # Errors
+    /// The worn colourway is not there, or lists panels of its own.
+    pub(super) fn into_project(self, folder: Option<&Path>) -> Result<Project> {
         let fabrics = self.fabrics.into_iter().map(|FabricForm { id, name, asset }| {
             let asset = asset.into_asset(folder);
             let name = if name.is_empty() { asset.name() } else { name };
@@ -169,17 +185,18 @@ impl ProjectForm {
             let print = print.map(|print| print.into_print(folder));
             (id, PanelChoice { fabric, direction, comb: comb.map(Arc::new), print, visible })
         });
-        Project {
+        Ok(Project {
             garment: self.garment.into_asset(folder),
             unit: self.unit,
             fabrics: fabrics.collect(),
             panels: panels.collect(),
             arrangement: Arrangement { changes: self.changes, names: self.names },
             groups: self.groups,
+            colourways: colourways::meant(self.colourways, self.worn_colourway, folder)?,
             plugins: self.plugins,
             view: self.view,
             notes: self.notes,
-        }
+        })
     }
 }
 

@@ -60,7 +60,7 @@ pub(super) fn parse_value(value: Value, folder: Option<&Path>) -> Result<Read> {
 }
 
 fn read(form: ProjectForm, value: &Value, version: u32, folder: Option<&Path>) -> Result<Read> {
-    let project = form.into_project(folder);
+    let project = form.into_project(folder)?;
     project.check()?;
     // What would be written of it; all else in the file is unknown.
     let known = json(&ProjectForm::new(&project, folder)?)?;

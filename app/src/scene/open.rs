@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use amc_core::mesh::{Garment, Unit};
-use amc_core::{Progress, Result};
+use amc_core::{Error, Progress, Result};
 use studio_plugin::document::Project;
 
 use super::{is_project, load_arranged, load_garment};
@@ -16,6 +16,28 @@ pub(crate) struct Scene {
     pub(crate) project: Option<Project>,
     /// What else there is to say.
     pub(crate) notices: Vec<String>,
+}
+
+impl Scene {
+    /// Wears a project's colourway of this name.
+    ///
+    /// # Errors
+    /// There is none; the message says which there are.
+    pub(crate) fn wear(&mut self, name: &str) -> Result<()> {
+        let Some(project) = &mut self.project else {
+            return Err(Error::invalid("only projects (.amcproj) have colourways: leave out --colourway"));
+        };
+        let named = project.colourways.labels().find(|label| label.name == name).map(|label| label.id);
+        let Some(id) = named else {
+            let known: Vec<_> =
+                project.colourways.labels().map(|label| format!("'{}'", label.name)).collect();
+            let known = known.join(", ");
+            return Err(Error::invalid(format!(
+                "there is no colourway '{name}'; the colourways are {known}"
+            )));
+        };
+        project.wear(id)
+    }
 }
 
 /// Opens a project (which says its garment's unit), a mesh file whose numbers are in `unit`, `garment:NAME` or `shape:NAME`.

@@ -8,7 +8,7 @@ use amc_core::image::decode;
 use amc_core::mesh::{Garment, Panel};
 use amc_core::render::{Cloth, LaidPrint, Laying, Print};
 use amc_core::{Error, Result};
-use studio_plugin::document::{Asset, Project};
+use studio_plugin::document::{Asset, ColourwayId, Project};
 
 use super::asset_path;
 
@@ -51,14 +51,14 @@ pub(crate) fn load_prints(project: &Project, garment: &Garment) -> Result<HashMa
     Ok(prints)
 }
 
-/// What each panel of `garment` wears of `prints`.
+/// What each panel of `garment` wears of `prints` in a colourway.
 pub(crate) fn worn_prints(
-    project: &Project,
+    (project, colourway): (&Project, ColourwayId),
     garment: &Garment,
     prints: &HashMap<Asset, Arc<Print>>,
 ) -> Vec<Option<WornPrint>> {
     let worn = |panel: &Panel| {
-        let print = project.print(&panel.id)?;
+        let print = project.print_in(colourway, &panel.id)?;
         Some(WornPrint { print: Arc::clone(prints.get(&print.picture)?), laying: print.laying })
     };
     garment.panels.iter().map(worn).collect()

@@ -9,7 +9,7 @@ use amc_core::direction::{Direction, PanelDirection};
 use amc_core::mesh::{Garment, Panel};
 use amc_core::render::{Cloth, Drawing};
 use glam::Vec3;
-use studio_plugin::document::{FabricId, Project};
+use studio_plugin::document::{ColourwayId, FabricId, Project};
 
 use super::WornPrint;
 use super::look::symmetry;
@@ -18,14 +18,14 @@ use super::print::printed;
 /// A panel's fabric (none: plain grey) and direction.
 pub(crate) type DocumentLook = (Option<FabricId>, PanelDirection);
 
-/// Every panel's fabric, where it is among those that are loaded, and direction.
+/// Every panel's fabric in a colourway, where it is among those that are loaded, and direction.
 pub(crate) fn document_looks(
-    project: &Project,
+    (project, colourway): (&Project, ColourwayId),
     garment: &Garment,
     fabrics: &BTreeMap<FabricId, Arc<Amc>>,
 ) -> Vec<DocumentLook> {
     let look = |panel: &Panel| {
-        let look = project.look_of(panel);
+        let look = project.look_in(colourway, panel);
         let fabric = look.fabric.filter(|id| fabrics.contains_key(id));
         let own = look.direction.unwrap_or_else(|| Direction::along_grain(panel));
         let table = fabric.and_then(|id| fabrics.get(&id)).map(|table| &**table);

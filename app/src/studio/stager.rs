@@ -10,7 +10,7 @@ use amc_core::direction::{Direction, Fineness, KeptTangents};
 use amc_core::mesh::{Arrangement, Garment, Picker, Rearrangement, Unit};
 use amc_core::render::{Bounds, Cloth, Drawing, Print};
 use eframe::egui::ColorImage;
-use studio_plugin::document::{Asset, FabricId, Project};
+use studio_plugin::document::{Asset, ColourwayId, FabricId, Project};
 use studio_plugin::{Cover, Directions, Job, Jobs, Notices, Registry, Stage};
 
 use super::texts::notices as words;
@@ -251,8 +251,12 @@ impl Stager {
     }
 
     fn update_prints(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
-        let worn = project.panels.values().filter_map(|choice| Some(&choice.print.as_ref()?.picture));
-        let wanted: HashSet<&Asset> = worn.collect();
+        let worn = project.panels.values().filter_map(|choice| choice.print.as_ref());
+        let compared = project.view.compared.as_ref().map(|it| it.colourway(&project.colourways));
+        let kept = project.colourways.all().filter(|(label, _)| Some(label.id) == compared);
+        let kept = kept.filter_map(|(_, kept)| kept).flat_map(|panels| panels.values());
+        let prints = worn.chain(kept.filter_map(|wear| wear.print.as_ref()));
+        let wanted: HashSet<&Asset> = prints.map(|print| &print.picture).collect();
         self.prints.retain(|picture, _| wanted.contains(picture));
         self.stage.prints.retain(|picture, _| wanted.contains(picture));
         for picture in wanted {
@@ -271,29 +275,29 @@ impl Stager {
     }
 
     fn update_drawings(&mut self, project: &Project, jobs: &mut Jobs, notices: &mut Notices) {
-        let recipe = self.loaded.as_ref().map(|loaded| Recipe {
-            loaded: loaded.clone(),
-            outfit: Outfit {
-                looks: document_looks(project, &loaded.garment, &self.stage.fabrics),
-                prints: worn_prints(project, &loaded.garment, &self.stage.prints),
-                fabrics: self.stage.fabrics.clone(),
-            },
-        });
-        let compared = project.view.compared.as_ref().filter(|compared| compared.changes_panels());
-        let other = compared.zip(recipe.as_ref()).map(|(compared, recipe)| Recipe {
-            outfit: Outfit {
-                looks: recipe
-                    .outfit
-                    .looks
-                    .iter()
-                    .map(|look| compared.look(look.clone(), |id| recipe.outfit.fabrics.contains_key(&id)))
-                    .collect(),
-                ..recipe.outfit.clone()
-            },
-            loaded: recipe.loaded.clone(),
+        let colourways = &project.colourways;
+        let recipe = self.loaded.as_ref().map(|loaded| self.recipe(loaded, project, colourways.worn().id));
+        let compared = project.view.compared.as_ref().filter(|compared| compared.changes_panels(colourways));
+        let other = compared.zip(self.loaded.as_ref()).map(|(compared, loaded)| {
+            let mut recipe = self.recipe(loaded, project, compared.colourway(colourways));
+            let Outfit { looks, fabrics, .. } = &mut recipe.outfit;
+            for look in looks {
+                *look = compared.look(look.clone(), |id| fabrics.contains_key(&id));
+            }
+            recipe
         });
         self.drawn.update(recipe, jobs, notices);
         self.compared.update(other, jobs, notices);
+    }
+
+    fn recipe(&self, loaded: &Loaded, project: &Project, colourway: ColourwayId) -> Recipe {
+        let (worn, garment) = ((project, colourway), &loaded.garment);
+        let outfit = Outfit {
+            looks: document_looks(worn, garment, &self.stage.fabrics),
+            prints: worn_prints(worn, garment, &self.stage.prints),
+            fabrics: self.stage.fabrics.clone(),
+        };
+        Recipe { loaded: loaded.clone(), outfit }
     }
 }
 

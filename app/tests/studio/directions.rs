@@ -103,13 +103,13 @@ fn an_arrow_is_dragged_and_a_sum_is_typed() {
 }
 
 /// A project's strokes on a panel.
-fn strokes(harness: &Harness<'_, App>, panel: &str) -> Vec<Stroke> {
+pub(super) fn strokes(harness: &Harness<'_, App>, panel: &str) -> Vec<Stroke> {
     let comb = harness.state().document().project().comb(panel);
     comb.map(|comb| comb.strokes.clone()).unwrap_or_default()
 }
 
 /// Where a piece of the flat pattern is in the window.
-fn piece(harness: &Harness<'_, App>, name: &str) -> Rect {
+pub(super) fn piece(harness: &Harness<'_, App>, name: &str) -> Rect {
     let named = format!("Piece {name},");
     harness.get_by(|node| node.label().is_some_and(|label| label.starts_with(&named))).rect()
 }

@@ -251,7 +251,7 @@ fn type_over(harness: &mut Harness<'_, App>, text: &str) {
 }
 
 /// Stripes, red and clear.
-fn stripes(file: &Path) {
+pub(super) fn stripes(file: &Path) {
     let stripe = |k: u32| if (k / 8).is_multiple_of(2) { [0.7, 0.05, 0.05, 1.0] } else { [0.0; 4] };
     let pixels = (0..32 * 32).map(stripe).collect();
     let picture = amc_core::image::Picture::new(32, 32, pixels).unwrap();

@@ -4,6 +4,7 @@
 
 mod arranging;
 mod by_keyboard;
+mod colourways;
 mod directions;
 mod export;
 mod journeys;

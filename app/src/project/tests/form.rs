@@ -4,7 +4,7 @@ use std::path::Path;
 
 use amc_core::ErrorKind;
 use serde_json::{Value, json};
-use studio_plugin::document::{Angles, Asset, FabricId, Project};
+use studio_plugin::document::{Angles, Asset, Colourways, FabricId, Project};
 
 use super::super::{FILE_LIMIT, Unknown, encode, parse};
 use super::rich;
@@ -44,6 +44,25 @@ fn people_can_read_what_is_written() {
         (&json!("Ärmel"), &json!("panel-2"))
     );
     assert!(value["panels"]["panel-0"].get("fabric").is_none(), "as by default");
+    assert_eq!(value["worn_colourway"], 0);
+    assert_eq!(value["colourways"][1], json!({"id": 0, "name": "Summer"}), "its panels are the project's");
+    let winter = &value["colourways"][2]["panels"];
+    assert_eq!(winter["panel-0"]["fabric"], 4);
+    assert_eq!(winter["panel-0"]["print"]["picture"]["path"], "prints/snow.png");
+    assert_eq!(winter["panel-1"], json!({"fabric": null}));
+}
+
+#[test]
+fn a_project_without_colourways_has_one() {
+    let text = r#"{"version": 1, "fabrics": [{"id": 3, "asset": "fabric:satin"}],
+        "panels": {"front": {"fabric": null}}}"#;
+    let project = parse(text.as_bytes(), None).unwrap().project;
+    assert_eq!(project.colourways, Colourways::default());
+    assert_eq!(project.look("front").fabric, None);
+    // By hand: the first is worn unless another is said to be.
+    let text = r#"{"version": 1, "colourways": [{"id": 5, "name": "A"}, {"id": 2, "name": "B", "panels": {"x": {}}}]}"#;
+    let project = parse(text.as_bytes(), None).unwrap().project;
+    assert_eq!((project.colourways.worn().id.number(), project.colourways.count()), (5, 2));
 }
 
 #[test]
@@ -130,6 +149,15 @@ fn faults_have_a_place_and_a_reason() {
     assert!(
         said(r#"{"version": 1, "panels": {"a": {"direction": {"angle_deg": 1e300}}}}"#).contains("finite")
     );
+    let colourways = |list: &str| said(&format!("{{\"version\": 1, \"colourways\": {list}}}"));
+    assert!(colourways(r#"[{"id": 1, "name": "A"}, {"id": 1, "name": "B"}]"#).starts_with("colourways[1]: "));
+    assert!(colourways(r#"[{"id": 1, "name": "A"}, {"id": 2, "name": "A"}]"#).contains("called 'A'"));
+    assert!(colourways(r#"[{"id": 1, "name": "A"}], "worn_colourway": 2"#).starts_with("colourways: "));
+    assert!(
+        colourways(r#"[{"id": 1, "name": "A", "panels": {"x": {"fabric": null}}}]"#).contains("'A' is worn")
+    );
+    let panels = r#"[{"id": 1, "name": "A"}, {"id": 2, "name": "B", "panels": {"x": {"fabric": 5}}}]"#;
+    assert!(colourways(panels).starts_with("colourways[1].panels.x: "));
     assert!(said(&format!("{{\"a\": {}", "[".repeat(100_000))).contains("recursion"));
     let newer = refusal(r#"{"version": 2, "garment": {"new": "form"}}"#);
     assert_eq!(newer.kind(), ErrorKind::Unsupported);
@@ -163,6 +191,10 @@ fn keys_of_a_newer_program_survive_a_save() {
             "front": {"fabric": 2, "visible": true, "pleats": [1, 2]},
             "back": {"fabric": 1, "hem": "blind"},
         },
+        "colourways": [
+            {"id": 4, "name": "A", "season": 2},
+            {"id": 6, "name": "B", "panels": {"front": {"fabric": 2, "dye": "madder"}}},
+        ],
         "render": {"samples": 64},
     });
     let mut read = parse(&serde_json::to_vec(&text).unwrap(), None).unwrap();
@@ -174,6 +206,8 @@ fn keys_of_a_newer_program_survive_a_save() {
     assert_eq!(value["garment"]["lining"], true);
     assert_eq!((&value["fabrics"][0]["id"], &value["fabrics"][0]["price"]), (&json!(2), &json!(3)));
     assert_eq!(value["panels"]["front"]["pleats"], json!([1, 2]));
+    assert_eq!(value["colourways"][0]["season"], 2);
+    assert_eq!(value["colourways"][1]["panels"]["front"]["dye"], "madder");
     assert!(value["panels"].get("back").is_none(), "it went with its panel");
     let again = parse(&bytes, None).unwrap();
     assert_eq!(encode(&again.project, &again.unknown, None).unwrap(), bytes);

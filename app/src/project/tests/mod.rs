@@ -7,6 +7,7 @@ mod mutations;
 mod recovery;
 mod settings;
 
+use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -19,7 +20,10 @@ use amc_core::mesh::Rearrangement;
 use amc_core::render::Laying;
 use amc_core::{Error, Result};
 use glam::{Vec2, Vec3};
-use studio_plugin::document::{Angles, Asset, FabricId, FabricInUse, PanelChoice, PanelPrint, Project};
+use studio_plugin::document::{
+    Angles, Asset, Colourway, ColourwayId, ColourwayLabel, Colourways, FabricId, FabricInUse, PanelChoice,
+    PanelPrint, PanelWear, Project,
+};
 
 use super::{Disk, System};
 
@@ -40,10 +44,7 @@ fn rich(folder: &Path) -> Project {
     ];
     for (k, direction) in directions.into_iter().enumerate() {
         let fabric = [None, Some(None), Some(Some(FabricId::new(9)))][k];
-        let print = (k == 2).then(|| PanelPrint {
-            picture: Asset::file(folder.join("prints/roses.png")),
-            laying: Laying { width: 0.15, turn: 0.3, shift: Vec2::new(0.01, -0.02), is_repeated: false },
-        });
+        let print = (k == 2).then(|| print(folder, "roses.png"));
         let comb = (k == 1).then(|| Arc::new(comb()));
         let choice = PanelChoice { fabric, direction, comb, print, visible: k != 1 };
         project.panels.insert(format!("panel-{k}"), choice);
@@ -57,8 +58,31 @@ fn rich(folder: &Path) -> Project {
     project.groups.insert("body".to_owned(), ["panel-0".to_owned(), "panel-2".to_owned()].into());
     project.view.set_angles(Angles { yaw: 12.3, pitch: -45.6, roll: 78.9 });
     project.view.zoom = 1.7;
+    project.colourways = colourways(folder);
     project.notes = "two \"lines\"\nof Grüße".to_owned();
     project
+}
+
+fn print(folder: &Path, name: &str) -> PanelPrint {
+    let laying = Laying { width: 0.15, turn: 0.3, shift: Vec2::new(0.01, -0.02), is_repeated: false };
+    PanelPrint { picture: Asset::file(folder.join("prints").join(name)), laying }
+}
+
+/// Three, of which the second is worn and the third lists panels.
+fn colourways(folder: &Path) -> Colourways {
+    let list = [(3, "Spring"), (0, "Summer"), (7, "Winter")].map(|(number, name)| {
+        let label = ColourwayLabel { id: ColourwayId::new(number), name: name.to_owned() };
+        Colourway { label, panels: BTreeMap::new() }
+    });
+    let mut list = list.to_vec();
+    for (panel, fabric, print) in [
+        ("panel-0", Some(Some(FabricId::new(4))), Some(print(folder, "snow.png"))),
+        ("panel-1", Some(None), None),
+        ("panel-9", None, Some(print(folder, "roses.png"))),
+    ] {
+        list[2].panels.insert(panel.to_owned(), PanelWear { fabric, print });
+    }
+    Colourways::new(list, Some(ColourwayId::new(0))).unwrap()
 }
 
 /// A stroke of each kind.
@@ -75,7 +99,8 @@ fn comb() -> Comb {
 /// Writes the files that [`rich`] names.
 fn write_files(folder: &Path) {
     let around = folder.parent().unwrap();
-    for path in ["coat.glb", "fabrics/silk.amc.ktx2", "prints/roses.png"].map(|name| folder.join(name)) {
+    for name in ["coat.glb", "fabrics/silk.amc.ktx2", "prints/roses.png", "prints/snow.png"] {
+        let path = folder.join(name);
         put(&path, path.to_str().unwrap());
     }
     put(&around.join("library/tweed.amc.ktx2"), "tweed");

@@ -212,6 +212,13 @@ fn compare(ui: &mut egui::Ui, view: &mut ViewSettings, studio: &Context<'_>) {
     }
     let Some(compared) = &mut view.compared else { return };
     egui::Grid::new("compare").num_columns(2).show(ui, |ui| {
+        let colourways = &studio.document.project().colourways;
+        if colourways.count() > 1 {
+            let colourways: Vec<_> = std::iter::once((None, texts::SAME_COLOURWAY))
+                .chain(colourways.labels().map(|label| (Some(label.id), label.name.as_str())))
+                .collect();
+            choice(ui, texts::RIGHT_COLOURWAY, &mut compared.colourway, &colourways);
+        }
         let fabrics = studio.document.project().fabrics.iter();
         let fabrics: Vec<_> = std::iter::once((None, texts::OWN_FABRIC))
             .chain(fabrics.map(|fabric| (Some(fabric.id), fabric.name.as_str())))

@@ -1,6 +1,7 @@
 //! The studio's own panes: plugins like any other. A pane is one file here and one line below; a plugin of `plugins/` is one line.
 
 mod activity;
+mod colourways;
 mod export;
 mod fabrics;
 mod history;
@@ -17,6 +18,7 @@ use studio_plugin::{Context, Registry};
 pub(super) fn register(registry: &mut Registry) {
     registry.register(panels::Panels::default());
     registry.register(fabrics::Fabrics::default());
+    registry.register(colourways::Colourways::default());
     registry.register(inspector::Inspector::default());
     #[cfg(feature = "editor")]
     registry.register(tangent_editor::TangentEditor::default());

@@ -3,6 +3,7 @@
 //! those of the viewport, which is a part of its own (`viewport/texts.rs`).
 
 pub(crate) mod activity;
+pub(crate) mod colourways;
 pub(crate) mod commands;
 #[cfg(feature = "dialogs")]
 pub(crate) mod dialogs;

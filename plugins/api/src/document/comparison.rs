@@ -5,7 +5,7 @@ use std::sync::Arc;
 use amc_core::direction::{Direction, PanelDirection};
 use serde::{Deserialize, Serialize};
 
-use super::FabricId;
+use super::{ColourwayId, Colourways, FabricId};
 
 /// What is different right of the divider of a split view. The default is: nothing.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -13,6 +13,8 @@ use super::FabricId;
 pub struct Comparison {
     /// The id of the shading mode; none: that of the view.
     pub mode: Option<String>,
+    /// The colourway; none, or one that is not there: the worn one.
+    pub colourway: Option<ColourwayId>,
     /// What all panels with a fabric wear; none, or a fabric that is not in use: each its own.
     pub fabric: Option<FabricId>,
     /// How far all directions are turned, degrees, counter-clockwise in the flat pattern.
@@ -20,7 +22,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// A panel's look in it. `worn` is the fabric and the direction left of the divider; `is_used` says whether a fabric
+    /// A panel's look in it. `worn` are the fabric that it wears in the colourway and the direction left of the divider; `is_used` says whether a fabric
     /// is there to be worn.
     pub fn look(
         &self,
@@ -38,9 +40,16 @@ impl Comparison {
         (fabric.map(|own| other.unwrap_or(own)), direction)
     }
 
+    /// The colourway right of the divider, of these.
+    pub fn colourway(&self, colourways: &Colourways) -> ColourwayId {
+        let known = self.colourway.and_then(|id| colourways.get(id));
+        known.unwrap_or_else(|| colourways.worn()).id
+    }
+
     /// Whether panels look other than they do left of the divider, the shading mode aside.
-    pub fn changes_panels(&self) -> bool {
-        self.fabric.is_some() || self.turned_deg != 0.0
+    pub fn changes_panels(&self, colourways: &Colourways) -> bool {
+        let is_other = self.colourway(colourways) != colourways.worn().id;
+        is_other || self.fabric.is_some() || self.turned_deg != 0.0
     }
 }
 
@@ -61,6 +70,11 @@ mod tests {
         assert_eq!(quarter.look((None, direction.clone()), |_| true).0, None);
         let lost = Comparison { fabric: Some(gone), ..Comparison::default() };
         assert_eq!(lost.look((Some(own), direction.clone()), |id| id == other), (Some(own), direction));
-        assert!(!Comparison::default().changes_panels() && quarter.changes_panels());
+        let colourways = Colourways::default();
+        let changes = |compared: &Comparison| compared.changes_panels(&colourways);
+        assert!(!changes(&Comparison::default()) && changes(&quarter));
+        // A colourway that is gone is the worn one.
+        let gone = Comparison { colourway: Some(ColourwayId::new(7)), ..Comparison::default() };
+        assert_eq!((gone.colourway(&colourways), changes(&gone)), (ColourwayId::new(0), false));
     }
 }

@@ -12,7 +12,7 @@ use amc_core::{Error, Result};
 use glam::Vec2;
 use serde_json::Value;
 
-use super::{Asset, FabricId, FabricInUse, PanelChoice, PanelPrint, Project};
+use super::{Asset, ColourwayId, ColourwayLabel, FabricId, FabricInUse, PanelChoice, PanelPrint, Project};
 
 /// One change of a project. Panels are named by their ids.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +23,7 @@ pub enum Edit {
     SetUnit(Unit),
     /// One fabric more, at the end of those in use.
     AddFabric(FabricInUse),
-    /// One fabric less: panels it was chosen for wear the default again.
+    /// One fabric less: panels it was chosen for wear the default again, in all colourways.
     RemoveFabric(FabricId),
     /// The panels' fabric.
     SetFabric {
@@ -107,6 +107,21 @@ pub enum Edit {
         /// [`Project::free_panel_ids`].
         into: [String; 2],
     },
+    /// One colourway more, at the end: a copy of the worn one, and worn at once.
+    AddColourway(ColourwayLabel),
+    /// Another colourway is worn. Directions, strokes and what is hidden stay.
+    WearColourway(ColourwayId),
+    /// Another name for the colourway of this id.
+    RenameColourway(ColourwayLabel),
+    /// One colourway less, but for the only one. In place of the worn one the next is worn, or the last.
+    RemoveColourway(ColourwayId),
+    /// A colourway at another place in their order.
+    MoveColourway {
+        /// Which.
+        colourway: ColourwayId,
+        /// Where to, counted from 0; beyond the end: to the end.
+        place: usize,
+    },
     /// The notes, whole.
     SetNotes(String),
     /// What a plugin keeps with the project.
@@ -131,7 +146,7 @@ impl Edit {
     /// `project` with this change, unchecked.
     ///
     /// # Errors
-    /// The edit speaks of a fabric or a file that `project` does not have.
+    /// The edit speaks of a fabric, a colourway or a file that `project` does not have, or of the only colourway.
     pub(super) fn apply(self, project: &mut Project) -> Result<()> {
         match self {
             Self::SetGarment(garment) => (project.garment, project.unit) = (garment, Unit::Metre),
@@ -179,6 +194,11 @@ impl Edit {
             Self::GroupPanels { panels, group } => project.group(&panels, group),
             Self::MergePanels { panels, comb } => project.merge_panels(panels, comb),
             Self::SplitPanel { panel, line, into } => project.split_panel(panel, line, into),
+            Self::AddColourway(label) => project.add_colourway(&label)?,
+            Self::WearColourway(id) => project.wear(id)?,
+            Self::RenameColourway(label) => project.rename_colourway(&label)?,
+            Self::RemoveColourway(id) => project.remove_colourway(id)?,
+            Self::MoveColourway { colourway, place } => project.move_colourway(colourway, place)?,
             Self::SetNotes(notes) => project.notes = notes,
             Self::SetPluginState { plugin, state: Value::Null, .. } => {
                 project.plugins.remove(&plugin);
@@ -203,6 +223,7 @@ fn remove_fabric(project: &mut Project, id: FabricId) -> Result<()> {
         return Err(Error::invalid(format!("there is no fabric {} to remove", id.number())));
     };
     project.fabrics.remove(place);
+    project.take_off_in_colourways(id);
     project.panels.retain(|_, choice| {
         if choice.fabric == Some(Some(id)) {
             choice.fabric = None;

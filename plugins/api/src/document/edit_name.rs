@@ -5,14 +5,14 @@ use std::f32::consts::FRAC_PI_2;
 use amc_core::direction::Direction;
 
 use super::edit::wrapped;
-use super::{Asset, Edit, FabricId, Project};
+use super::{Asset, ColourwayId, Edit, FabricId, Project};
 
 /// Turns this close to a quarter turn are called one, radians.
 const QUARTER_TOLERANCE: f32 = 1e-3;
 
 impl Edit {
-    /// What it does, for people: `Swap warp and weft of 3 panels`. Fabrics are called as in `project`, the one before
-    /// the edit.
+    /// What it does, for people: `Swap warp and weft of 3 panels`. Fabrics and colourways are called as in `project`,
+    /// the one before the edit.
     pub fn name(&self, project: &Project) -> String {
         match self {
             Self::SetGarment(garment) => format!("Change the garment to {}", garment.name()),
@@ -42,6 +42,13 @@ impl Edit {
             Self::GroupPanels { panels, group: None } => format!("Ungroup {}", counted(panels.len())),
             Self::MergePanels { panels, .. } => format!("Merge {}", counted(panels.len())),
             Self::SplitPanel { .. } => "Split a panel".to_owned(),
+            Self::AddColourway(label) => format!("Add the colourway '{}'", label.name),
+            Self::WearColourway(id) => format!("Wear {}", colourway_name(project, *id)),
+            Self::RenameColourway(label) => {
+                format!("Rename {} to '{}'", colourway_name(project, label.id), label.name)
+            }
+            Self::RemoveColourway(id) => format!("Remove {}", colourway_name(project, *id)),
+            Self::MoveColourway { colourway, .. } => format!("Move {}", colourway_name(project, *colourway)),
             Self::SetNotes(_) => "Edit the notes".to_owned(),
             Self::SetPluginState { what, .. } | Self::SetComb { what, .. } => what.clone(),
             Self::Relocate { old, .. } => format!("Locate {}", Asset::file(old.as_path()).name()),
@@ -69,6 +76,11 @@ impl Edit {
 
 fn fabric_name(project: &Project, id: FabricId) -> String {
     project.fabric(id).map_or_else(|| format!("fabric {}", id.number()), |fabric| fabric.name.clone())
+}
+
+fn colourway_name(project: &Project, id: ColourwayId) -> String {
+    let known = project.colourways.get(id);
+    known.map_or_else(|| format!("colourway {}", id.number()), |label| format!("'{}'", label.name))
 }
 
 fn counted(panels: usize) -> String {

@@ -76,6 +76,7 @@ impl Project {
         let choice = self.panels.get(&panel).cloned();
         let name = self.arrangement.names.get(&panel).cloned();
         let group = self.group_of(&panel).map(str::to_owned);
+        self.colourways.hand_on(&panel, &into);
         for (id, number) in into.iter().zip(1..) {
             if let Some(choice) = &choice {
                 self.panels.insert(id.clone(), choice.clone());

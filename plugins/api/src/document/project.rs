@@ -10,7 +10,7 @@ use amc_core::{Error, Result};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::{Asset, FabricId, FabricInUse, PanelPrint, ViewSettings};
+use super::{Asset, Colourways, FabricId, FabricInUse, PanelPrint, ViewSettings};
 
 /// What the person works on.
 ///
@@ -30,6 +30,8 @@ pub struct Project {
     pub arrangement: Arrangement,
     /// Panels that the person put together, by the groups' names. A panel is in one group at most.
     pub groups: BTreeMap<String, BTreeSet<String>>,
+    /// What else panels could wear, in place of the fabrics and prints in `panels`.
+    pub colourways: Colourways,
     /// How it is looked at.
     pub view: ViewSettings,
     /// What plugins keep with the project, by their ids; at most [`Project::MOST_PLUGIN_STATE`] bytes each. That of plugins
@@ -86,6 +88,7 @@ impl Default for Project {
             panels: BTreeMap::new(),
             arrangement: Arrangement::default(),
             groups: BTreeMap::new(),
+            colourways: Colourways::default(),
             plugins: BTreeMap::new(),
             view: ViewSettings::default(),
             notes: String::new(),
@@ -109,7 +112,7 @@ impl Project {
     /// The longest notes, bytes.
     pub const LONGEST_NOTES: usize = 1 << 20;
 
-    /// The longest name of a fabric and the longest panel id, bytes.
+    /// The longest name of a fabric or a colourway and the longest panel id, bytes.
     pub const LONGEST_NAME: usize = 1024;
 
     /// The look of the panel of this id, as cloth: where nobody has chosen it wears the first fabric, along its grain,
@@ -162,24 +165,29 @@ impl Project {
         FabricId::new(above.or_else(gap).unwrap_or_default())
     }
 
-    /// Every asset: the garment, then the fabrics', then the prints' (one that is on several panels is there as often).
+    /// Every asset: the garment, then the fabrics', then the prints' of all colourways, the worn one's first (one that is on
+    /// several panels is there as often).
     pub fn assets(&self) -> impl Iterator<Item = &Asset> {
         let prints = self.panels.values().filter_map(|choice| choice.print.as_ref());
+        let kept = self.colourways.kept().flat_map(|colourway| colourway.panels.values());
+        let kept = kept.filter_map(|wear| wear.print.as_ref());
         std::iter::once(&self.garment)
             .chain(self.fabrics.iter().map(|fabric| &fabric.asset))
-            .chain(prints.map(|print| &print.picture))
+            .chain(prints.chain(kept).map(|print| &print.picture))
     }
 
     /// Every asset, to be replaced.
     pub fn assets_mut(&mut self) -> impl Iterator<Item = &mut Asset> {
         let prints = self.panels.values_mut().filter_map(|choice| choice.print.as_mut());
+        let kept = self.colourways.kept_mut().flat_map(|colourway| colourway.panels.values_mut());
+        let kept = kept.filter_map(|wear| wear.print.as_mut());
         std::iter::once(&mut self.garment)
             .chain(self.fabrics.iter_mut().map(|fabric| &mut fabric.asset))
-            .chain(prints.map(|print| &mut print.picture))
+            .chain(prints.chain(kept).map(|print| &mut print.picture))
     }
 
     /// Checks what must be true of every project: assets that can be what they are used as, fabrics with names and ids of
-    /// their own, chosen fabrics that are in use, directions that are numbers, a view that makes sense, and the limits above.
+    /// their own, colourways likewise, chosen fabrics that are in use, directions that are numbers, a view that makes sense, and the limits above.
     ///
     /// # Errors
     /// The first thing that is not so, and where.
@@ -188,6 +196,7 @@ impl Project {
         self.check_fabrics()?;
         self.check_panels()?;
         self.check_arrangement()?;
+        self.check_colourways()?;
         self.check_plugins()?;
         self.view.check()?;
         if self.notes.len() > Self::LONGEST_NOTES {
@@ -234,27 +243,53 @@ impl Project {
     }
 
     fn check_panels(&self) -> Result<()> {
-        if self.panels.len() > Self::MOST_PANELS {
-            let what = format!("more than {} panels are listed", Self::MOST_PANELS);
-            return Err(Error::too_large(what).at_element("panels"));
-        }
-        let ids: BTreeSet<FabricId> = self.fabrics.iter().map(|fabric| fabric.id).collect();
+        check_count(self.panels.len()).map_err(|error| error.at_element("panels"))?;
+        let fabrics = self.fabric_ids();
         for (panel, choice) in &self.panels {
             let place = |error: Error| error.at_element(format!("panels.{panel}"));
             check_name(panel, "the panel's id").map_err(|error| error.at_element("panels"))?;
-            if let Some(Some(id)) = choice.fabric
-                && !ids.contains(&id)
-            {
-                let what = format!("it wears fabric {}, which is not among the fabrics in use", id.number());
-                return Err(place(Error::invalid(what)));
-            }
+            check_wear(choice.fabric, choice.print.as_ref(), &fabrics).map_err(place)?;
             if choice.direction.is_some_and(|direction| !is_finite(direction)) {
                 return Err(place(Error::invalid("its direction is not a finite number")));
             }
             choice.comb.as_ref().map_or(Ok(()), |comb| comb.check()).map_err(place)?;
-            choice.print.as_ref().map_or(Ok(()), PanelPrint::check).map_err(place)?;
         }
         Ok(())
+    }
+
+    fn check_colourways(&self) -> Result<()> {
+        if self.colourways.count() > Colourways::MOST {
+            let what = format!("a project may have {} colourways: remove some", Colourways::MOST);
+            return Err(Error::too_large(what).at_element("colourways"));
+        }
+        let fabrics = self.fabric_ids();
+        let (mut ids, mut names) = (BTreeSet::new(), BTreeSet::new());
+        for (k, (label, kept)) in self.colourways.all().enumerate() {
+            let place = |error: Error| error.at_element(format!("colourways[{k}]"));
+            check_name(&label.name, "the colourway's name").map_err(place)?;
+            if !ids.insert(label.id) {
+                let what = format!("another colourway has the id {} too", label.id.number());
+                return Err(place(Error::invalid(what)));
+            }
+            if !names.insert(&label.name) {
+                return Err(place(Error::invalid(format!(
+                    "another colourway is called '{}' too",
+                    label.name
+                ))));
+            }
+            let Some(panels) = kept else { continue };
+            check_count(panels.len()).map_err(place)?;
+            for (panel, wear) in panels {
+                let place = |error: Error| error.at_element(format!("colourways[{k}].panels.{panel}"));
+                check_name(panel, "the panel's id").map_err(place)?;
+                check_wear(wear.fabric, wear.print.as_ref(), &fabrics).map_err(place)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn fabric_ids(&self) -> BTreeSet<FabricId> {
+        self.fabrics.iter().map(|fabric| fabric.id).collect()
     }
 
     /// About how much memory it takes, bytes: what its strings hold, and each entry with what a tree spends on it.
@@ -272,6 +307,7 @@ impl Project {
             + self.assets().map(asset).sum::<usize>()
             + fabrics.sum::<usize>()
             + panels.sum::<usize>()
+            + self.colourways.bytes()
             + self.plugins.iter().map(|(id, state)| id.len() + json_bytes(state)).sum::<usize>()
             + self.arrangement_bytes()
             + self.notes.len()
@@ -288,6 +324,28 @@ fn json_bytes(value: &Value) -> usize {
             16 + entries.iter().map(|(key, value)| 16 + key.len() + json_bytes(value)).sum::<usize>()
         }
     }
+}
+
+fn check_count(panels: usize) -> Result<()> {
+    if panels > Project::MOST_PANELS {
+        return Err(Error::too_large(format!("more than {} panels are listed", Project::MOST_PANELS)));
+    }
+    Ok(())
+}
+
+/// What a panel may wear, with these fabrics in use.
+fn check_wear(
+    fabric: Option<Option<FabricId>>,
+    print: Option<&PanelPrint>,
+    fabrics: &BTreeSet<FabricId>,
+) -> Result<()> {
+    if let Some(Some(id)) = fabric
+        && !fabrics.contains(&id)
+    {
+        let what = format!("it wears fabric {}, which is not among the fabrics in use", id.number());
+        return Err(Error::invalid(what));
+    }
+    print.map_or(Ok(()), PanelPrint::check)
 }
 
 pub(super) fn check_name(name: &str, what: &str) -> Result<()> {

@@ -176,8 +176,9 @@ impl Export {
         let name = texts::exporting(file.file_name().unwrap_or(file.as_os_str()).to_string_lossy());
         let job = studio.jobs.start(name.clone(), move |progress| {
             let order = order(stand(&project, &garment)?);
-            let looks = document_looks(&project, &garment, &fabrics);
-            let outfit = Outfit { looks, prints: worn_prints(&project, &garment, &prints), fabrics };
+            let worn = (&project, project.colourways.worn().id);
+            let looks = document_looks(worn, &garment, &fabrics);
+            let outfit = Outfit { looks, prints: worn_prints(worn, &garment, &prints), fabrics };
             let occlusion = occlusion(&garment, &order.shading, progress)?;
             let upright = garment.normals.clone();
             let plain = Drawing::new(&garment, upright, occlusion.as_deref(), Vec::new(), |_| Cloth::Plain)?;

@@ -7,7 +7,9 @@ use amc_core::direction::comb::Comb;
 use amc_core::mesh::{Rearrangement, Unit};
 use amc_core::render::Laying;
 
-use super::super::{Asset, Document, Edit, FabricId, Gesture, PanelPrint, Project};
+use super::super::{
+    Asset, ColourwayId, ColourwayLabel, Document, Edit, FabricId, Gesture, PanelPrint, PanelWear, Project,
+};
 use super::{at, fabric, turn};
 
 const COMMANDS: usize = 10_000;
@@ -36,8 +38,11 @@ struct Plain {
     garment: String,
     unit: Unit,
     fabrics: Vec<u32>,
-    /// Per panel: chosen fabric (-2 default, -1 grey), angle, visible, width of the print.
-    panels: [(i64, Option<f32>, bool, Option<f32>); PANELS.len()],
+    /// In their order: id, name, and per panel chosen fabric (-2 default, -1 grey) and width of the print.
+    colourways: Vec<(u32, String, [(i64, Option<f32>); PANELS.len()])>,
+    worn: usize,
+    /// Per panel: angle, visible.
+    panels: [(Option<f32>, bool); PANELS.len()],
     /// Per panel: how far its comb is turned; none: not combed.
     combed: [Option<f32>; PANELS.len()],
     /// Per panel: its group, and its name.
@@ -51,12 +56,13 @@ struct Plain {
 
 impl Plain {
     fn new() -> Self {
-        let panels = [(-2, None, true, None); PANELS.len()];
         Self {
             garment: "garment:shirt".to_owned(),
             unit: Unit::Metre,
             fabrics: vec![0],
-            panels,
+            colourways: vec![(0, "Colourway 1".to_owned(), [(-2, None); PANELS.len()])],
+            worn: 0,
+            panels: [(None, true); PANELS.len()],
             combed: [None; PANELS.len()],
             grouped: [(None, None); PANELS.len()],
             merged: Vec::new(),
@@ -72,7 +78,9 @@ impl Plain {
             -1 => None,
             id => Some(id as u32),
         };
-        let looks = PANELS.iter().zip(&self.panels).all(|(name, &(chosen, angle, visible, print))| {
+        let wear = self.colourways[self.worn].2;
+        let looks = PANELS.iter().zip(&self.panels).zip(&wear).all(|((name, panel), &(chosen, print))| {
+            let &(angle, visible) = panel;
             let look = project.look(name);
             let printed = project.print(name).map(|print| print.laying.width);
             let is_turned = look.direction.map(|direction| direction.angle);
@@ -94,6 +102,7 @@ impl Plain {
             && combed
             && grouped
             && merged.eq(self.merged.iter().copied())
+            && self.is_in_colourways(project)
             && fabrics == self.fabrics
             && project.garment == Asset::Bundled(self.garment.clone())
             && project.unit == self.unit
@@ -102,11 +111,94 @@ impl Plain {
                 == self.kept.map(|it| it as u64)
     }
 
+    fn is_in_colourways(&self, project: &Project) -> bool {
+        let fabric = |chosen: i64| match chosen {
+            -2 => None,
+            -1 => Some(None),
+            id => Some(Some(FabricId::new(id as u32))),
+        };
+        let all: Vec<_> = project.colourways.all().collect();
+        let same =
+            all.iter().zip(&self.colourways).enumerate().all(|(k, ((label, kept), (id, name, wear)))| {
+                let is_worn = k == self.worn;
+                let wears = PANELS.iter().zip(wear).all(|(panel, &(chosen, print))| {
+                    let kept = kept.and_then(|kept| kept.get(*panel)).cloned().unwrap_or_default();
+                    let width = project.print_in(label.id, panel).map(|print| print.laying.width);
+                    (is_worn || kept.fabric == fabric(chosen)) && width == print
+                });
+                let lists = kept.is_none_or(|kept| kept.values().all(|wear| *wear != PanelWear::default()));
+                label.id.number() == *id && label.name == *name && kept.is_none() == is_worn && wears && lists
+            });
+        same && all.len() == self.colourways.len()
+    }
+
+    fn wear(&mut self) -> &mut [(i64, Option<f32>); PANELS.len()] {
+        &mut self.colourways[self.worn].2
+    }
+
+    /// A random edit of colourways, and the tables after it; none: it must be refused.
+    fn random_colourway_edit(&self, random: &mut Random) -> (Edit, Option<Self>) {
+        let mut after = self.clone();
+        let number = random.below(4) as u32;
+        let (id, name) = (ColourwayId::new(number), ["A", "B", "C", ""][random.below(4)].to_owned());
+        let label = ColourwayLabel { id, name: name.clone() };
+        let place = self.colourways.iter().position(|it| it.0 == number);
+        let is_taken = |but: Option<usize>| {
+            name.is_empty()
+                || self.colourways.iter().enumerate().any(|(k, it)| Some(k) != but && it.1 == name)
+        };
+        let what = random.below(6);
+        if what == 0 {
+            let copy = (number, name.clone(), self.colourways[self.worn].2);
+            after.colourways.push(copy);
+            after.worn = self.colourways.len();
+            let is_fine = place.is_none() && !is_taken(None);
+            return (Edit::AddColourway(label), is_fine.then_some(after));
+        }
+        let edit = |to| match what {
+            1 => Edit::RenameColourway(label),
+            2 => Edit::RemoveColourway(id),
+            3 => Edit::MoveColourway { colourway: id, place: to },
+            _ => Edit::WearColourway(id),
+        };
+        let to = random.below(5);
+        let Some(place) = place else { return (edit(to), None) };
+        let last = self.colourways.len() - 1;
+        let is_fine = match what {
+            1 => {
+                after.colourways[place].1.clone_from(&name);
+                !is_taken(Some(place))
+            }
+            2 => {
+                let worn = self.colourways[self.worn].0;
+                after.colourways.remove(place);
+                let still = after.colourways.iter().position(|it| it.0 == worn);
+                after.worn = still.unwrap_or(if place == last { last.max(1) - 1 } else { place });
+                last > 0
+            }
+            3 => {
+                let worn = self.colourways[self.worn].0;
+                let moved = after.colourways.remove(place);
+                after.colourways.insert(to.min(last), moved);
+                after.worn = after.colourways.iter().position(|it| it.0 == worn).unwrap();
+                true
+            }
+            _ => {
+                after.worn = place;
+                true
+            }
+        };
+        (edit(to), is_fine.then_some(after))
+    }
+
     /// A random edit, and the tables after it; none: it must be refused.
     fn random_edit(&self, random: &mut Random) -> (Edit, Option<Self>) {
         let mut after = self.clone();
         let chosen: Vec<usize> = (0..PANELS.len()).filter(|_| random.chance(2)).collect();
         let names: Vec<String> = chosen.iter().map(|&k| PANELS[k].to_owned()).collect();
+        if random.chance(5) {
+            return self.random_colourway_edit(random);
+        }
         let edit = match random.below(16) {
             0 => {
                 after.unit = Unit::Metre;
@@ -129,16 +221,13 @@ impl Plain {
                     return (edit, None);
                 };
                 after.fabrics.remove(place);
-                after
-                    .panels
-                    .iter_mut()
-                    .filter(|panel| panel.0 == i64::from(id))
-                    .for_each(|panel| panel.0 = -2);
+                let wear = after.colourways.iter_mut().flat_map(|colourway| &mut colourway.2);
+                wear.filter(|wear| wear.0 == i64::from(id)).for_each(|wear| wear.0 = -2);
                 edit
             }
             3 => {
                 let id = random.below(7) as i64 - 1;
-                chosen.iter().for_each(|&k| after.panels[k].0 = id);
+                chosen.iter().for_each(|&k| after.wear()[k].0 = id);
                 let fabric = u32::try_from(id).ok().map(FabricId::new);
                 let edit = Edit::SetFabric { panels: names, fabric };
                 let is_known = fabric.is_none_or(|fabric| self.fabrics.contains(&fabric.number()));
@@ -149,23 +238,23 @@ impl Plain {
             }
             4 => {
                 let angle = [None, Some(0.0), Some(1.5)][random.below(3)];
-                chosen.iter().for_each(|&k| after.panels[k].1 = angle);
+                chosen.iter().for_each(|&k| after.panels[k].0 = angle);
                 Edit::SetDirection { panels: names, direction: angle.map(at) }
             }
             5 => {
                 let panel = random.below(PANELS.len());
-                let now = self.panels[panel].1.unwrap_or(0.25);
+                let now = self.panels[panel].0.unwrap_or(0.25);
                 // Within half a turn and exact in binary.
                 let by = [0.0, if now > 0.0 { -1.25 } else { 0.5 }][random.below(2)];
                 let is_far = |turn: f32| (turn + by).abs() > 3.0;
                 let by = if after.combed[panel].is_some_and(is_far) { 0.0 } else { by };
-                after.panels[panel].1 = Some(now + by);
+                after.panels[panel].0 = Some(now + by);
                 after.combed[panel] = after.combed[panel].map(|turn| turn + by);
                 turn(PANELS[panel], now, by)
             }
             6 => {
                 let visible = random.chance(2);
-                chosen.iter().for_each(|&k| after.panels[k].2 = visible);
+                chosen.iter().for_each(|&k| after.panels[k].1 = visible);
                 Edit::SetVisible { panels: names, visible }
             }
             8 => {
@@ -180,7 +269,7 @@ impl Plain {
                 let width = [None, Some(0.25), Some(200.0)][random.below(3)];
                 let laying = Laying { width: width.unwrap_or_default(), ..Laying::default() };
                 let print = width.map(|_| PanelPrint { picture: Asset::file("roses.png"), laying });
-                chosen.iter().for_each(|&k| after.panels[k].3 = width);
+                chosen.iter().for_each(|&k| after.wear()[k].1 = width);
                 let edit = Edit::SetPrint { panels: names, print };
                 if width == Some(200.0) && !chosen.is_empty() {
                     return (edit, None);
@@ -225,7 +314,7 @@ impl Plain {
             10 => {
                 let laying = Laying { width: 0.5, ..Laying::default() };
                 for &k in &chosen {
-                    after.panels[k].3 = after.panels[k].3.map(|_| 0.5);
+                    after.wear()[k].1 = after.wear()[k].1.map(|_| 0.5);
                 }
                 Edit::LayPrint { panels: names, laying }
             }

@@ -1,6 +1,7 @@
 //! Documents against a plain model, and what each edit does.
 
 mod against_model;
+mod colourways;
 mod edits;
 mod history;
 
