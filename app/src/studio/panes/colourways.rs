@@ -127,7 +127,7 @@ impl Colourways {
         });
         if !is_worn {
             let is_compared = compared == Some(label.id);
-            let button = egui::Button::selectable(is_compared, texts::COMPARE);
+            let button = egui::Button::new(texts::COMPARE).selected(is_compared);
             let button = ui.add(button.min_size(vec2(COMPARE_WIDTH, SWATCH)));
             let button = button.on_hover_text(texts::COMPARE_TIP);
             button.widget_info(|| {
