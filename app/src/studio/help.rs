@@ -40,8 +40,13 @@ macro_rules! picture {
 }
 
 /// The guide's pictures, by what the chapters call them.
-const PICTURES: [(&str, &[u8]); 4] =
-    [picture!("window.png"), picture!("panel.png"), picture!("split.png"), picture!("shortcuts.png")];
+const PICTURES: [(&str, &[u8]); 5] = [
+    picture!("window.png"),
+    picture!("panel.png"),
+    picture!("comb.png"),
+    picture!("split.png"),
+    picture!("shortcuts.png"),
+];
 
 /// Who made what the program is made of, and under which licences: made by the test `licences`.
 const LICENCES: &str = include_str!("../../../assets/licences/third-party.txt");

@@ -252,14 +252,14 @@ fn assemble(mesh: &PanelMesh, demands: &Demands, symmetry: u32) -> (Vec<Complex>
         }
     }
     let mut values = Vec::with_capacity(edges.count() + count);
-    for column in 0..count {
+    for (column, &diagonal) in diagonal.iter().enumerate() {
         let is_free = |vertex: usize| demands.fixed[vertex] == ZERO && is_combed(vertex);
         for edge in edges.starts[column] as usize..edges.starts[column + 1] as usize {
             let is_kept = is_free(column) && is_free(edges.lower[edge] as usize);
             let value = power(edges.turns[edge], symmetry).conj() * -edges.weights[edge];
             values.push(if is_kept { value } else { ZERO });
         }
-        values.push(c64::new(diagonal[column], 0.0));
+        values.push(c64::new(diagonal, 0.0));
     }
     (values, right)
 }

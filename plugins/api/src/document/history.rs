@@ -290,7 +290,8 @@ fn next_number() -> u64 {
 }
 
 fn is_same_but_view(a: &Project, b: &Project) -> bool {
-    let Project { garment, unit, fabrics, panels, arrangement, groups, colourways, plugins, view: _, notes } = a;
+    let Project { garment, unit, fabrics, panels, arrangement, groups, colourways, plugins, view: _, notes } =
+        a;
     (garment, unit, fabrics, panels, plugins, notes)
         == (&b.garment, &b.unit, &b.fabrics, &b.panels, &b.plugins, &b.notes)
         && (arrangement, groups, colourways) == (&b.arrangement, &b.groups, &b.colourways)

@@ -195,7 +195,7 @@ mod tests {
         let separation = 0.1;
         let around = |at: Vec2, heading: Vec2| {
             let within = at.length() > 0.15 && inside(at);
-            within.then(|| aligned(at.perp().normalize(), heading)).flatten()
+            within.then(|| aligned(at.perp().normalize_or_zero(), heading)).flatten()
         };
         let lines = streamlines(DOMAIN, separation, around);
         assert!(lines.len() >= 8, "{}", lines.len());

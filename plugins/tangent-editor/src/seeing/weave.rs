@@ -39,7 +39,7 @@ impl Binding {
         match self {
             Self::Plain => (end + pick).is_multiple_of(2),
             Self::Twill => (end + 3 * pick) % 4 < 2,
-            Self::Satin => (end + 5 * pick) % 8 != 0,
+            Self::Satin => !(end + 5 * pick).is_multiple_of(8),
         }
     }
 }

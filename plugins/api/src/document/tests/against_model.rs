@@ -32,6 +32,9 @@ impl Random {
     }
 }
 
+/// What each panel wears.
+type Worn = [(i64, Option<f32>); PANELS.len()];
+
 /// A project as tables of numbers.
 #[derive(Debug, Clone, PartialEq)]
 struct Plain {
@@ -39,7 +42,7 @@ struct Plain {
     unit: Unit,
     fabrics: Vec<u32>,
     /// In their order: id, name, and per panel chosen fabric (-2 default, -1 grey) and width of the print.
-    colourways: Vec<(u32, String, [(i64, Option<f32>); PANELS.len()])>,
+    colourways: Vec<(u32, String, Worn)>,
     worn: usize,
     /// Per panel: angle, visible.
     panels: [(Option<f32>, bool); PANELS.len()],
