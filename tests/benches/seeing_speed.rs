@@ -32,7 +32,7 @@ fn main() -> ExitCode {
             let cuts = directions.into_iter().map(|direction| Cut { direction, is_combed: false });
             Asked {
                 garment: Arc::clone(&garment),
-                vectors: vectors.into(),
+                vectors,
                 cuts: cuts.collect(),
                 show,
                 settings: Settings::default(),

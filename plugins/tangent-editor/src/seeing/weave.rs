@@ -185,7 +185,7 @@ mod tests {
             level.texels[place][2]
         };
         let values: Vec<u8> = (0..samples).map(dark).collect();
-        let limit = 100;
+        let limit = 140;
         values.windows(2).filter(|pair| pair[0] >= limit && pair[1] < limit).count()
     }
 
