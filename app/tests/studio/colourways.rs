@@ -154,8 +154,11 @@ fn picture_of_the_garment(harness: &mut Harness<'_, App>) -> Vec<Vec<[u8; 4]>> {
     (within.top() as u32..within.bottom() as u32).map(row).collect()
 }
 
+/// Rows of pixels.
+type Rows<'a> = Vec<&'a [[u8; 4]]>;
+
 /// Left and right of the divider, and clear of it.
-fn halves(picture: &[Vec<[u8; 4]>]) -> (Vec<&[[u8; 4]]>, Vec<&[[u8; 4]]>) {
+fn halves(picture: &[Vec<[u8; 4]>]) -> (Rows<'_>, Rows<'_>) {
     let middle = picture[0].len() / 2;
     let left = picture.iter().map(|row| &row[..middle - 8]).collect();
     (left, picture.iter().map(|row| &row[middle + 8..]).collect())

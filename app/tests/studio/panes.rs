@@ -82,7 +82,7 @@ fn several_colourways_look_as_they_did() {
         harness.remove_cursor();
         harness.run_steps(3);
         let options = SnapshotOptions::new().output_path("tests/snapshots");
-        results.add(harness.try_snapshot_options(&format!("colourways-several-{theme_name}"), &options));
+        results.add(harness.try_snapshot_options(format!("colourways-several-{theme_name}"), &options));
     }
 }
 
